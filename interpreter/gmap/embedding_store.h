@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "gmap/embedding_schema.h"
+#include "gmap/gmap.h"
+#include "gmap/orbit_index.h"
+
+namespace gmsim::gmap {
+
+/// The values of one embedding, `stride` doubles a row (component_count of its type), rows as in
+/// the OrbitIndex of its orbit type.
+class EmbeddingColumn {
+ public:
+  EmbeddingColumn(std::uint32_t stride, bool optional) : stride_(stride), optional_(optional) {}
+
+  [[nodiscard]] std::uint32_t stride() const { return stride_; }
+  [[nodiscard]] std::span<const double> get(Row row) const {
+    return {data_.data() + std::size_t{row} * stride_, stride_};
+  }
+  [[nodiscard]] bool has(Row row) const { return row < present_.size() && present_[row] != 0; }
+  void set(Row row, std::span<const double> value, Journal* journal = nullptr);
+  void clear(Row row, Journal* journal = nullptr);
+  void resize(Row row_end);
+  [[nodiscard]] std::span<const double> data() const { return data_; }
+  [[nodiscard]] std::span<double> data() { return data_; }
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  friend class Journal;
+  std::uint32_t stride_;
+  bool optional_;
+  std::vector<double> data_;
+  std::vector<std::uint8_t> present_;
+};
+
+/// The embeddings of one map: a column for each stored embedding that is in use and an orbit index
+/// for each orbit type that is in use. Derived embeddings have no column; readers evaluate them.
+class EmbeddingStore {
+ public:
+  EmbeddingStore(const EmbeddingSchema& schema, const GMap& map);
+
+  [[nodiscard]] const EmbeddingSchema& schema() const { return *schema_; }
+  /// Makes the column (filled with the default where there is one) and its orbit index.
+  EmbeddingColumn& use(types::EmbeddingId id);
+  [[nodiscard]] bool in_use(types::EmbeddingId id) const;
+  [[nodiscard]] EmbeddingColumn& column(types::EmbeddingId id);
+  [[nodiscard]] const EmbeddingColumn& column(types::EmbeddingId id) const;
+  /// The index of an orbit type, made on first use.
+  OrbitIndex& use_index(OrbitType type);
+  /// Null when the type is not indexed.
+  [[nodiscard]] const OrbitIndex* find_index(OrbitType type) const;
+  [[nodiscard]] std::span<const std::unique_ptr<OrbitIndex>> indices() const { return indices_; }
+
+  /// Value at the orbit of a dart; empty when it has none.
+  [[nodiscard]] std::span<const double> get(types::EmbeddingId id, DartId d) const;
+  void set(types::EmbeddingId id, DartId d, std::span<const double> value,
+           Journal* journal = nullptr);
+  /// The embeddings in use.
+  [[nodiscard]] std::vector<types::EmbeddingId> embeddings() const;
+  [[nodiscard]] std::size_t memory_bytes() const;
+
+ private:
+  const EmbeddingSchema* schema_;
+  const GMap* map_;
+  std::vector<std::unique_ptr<OrbitIndex>> indices_;
+  std::vector<std::unique_ptr<EmbeddingColumn>> columns_;  // by EmbeddingId; null: not in use
+};
+
+}  // namespace gmsim::gmap
