@@ -24,8 +24,9 @@ enum class EmbeddingKind {
 /// Which value stays when a rule joins orbits and gives no value.
 enum class MergePolicy { None, Equal, First, Mean, Min, Max };
 
-/// What a named value is: an `embedding`, or part of an interaction ("stretch_spring.rest").
-enum class EmbeddingRole { Data, Parameter, Result };
+/// What a named value is: an `embedding`, or part of an interaction: the mark that an orbit carries
+/// it ("stretch_spring", bool, optional), a parameter ("stretch_spring.rest", optional) or a result.
+enum class EmbeddingRole { Data, Presence, Parameter, Result };
 
 struct EmbeddingDecl {
   std::string name;

@@ -38,8 +38,7 @@ enum class ExprKind : std::uint8_t {
   SameDart,      ///< (dart, dart)
   // reading values
   Embedding,     ///< (dart) `embedding`: the value at the dart's orbit
-  Has,           ///< (dart) `embedding`: is there one
-  HasInteraction,///< (dart) `interaction`: does the dart's orbit carry it
+  Has,           ///< (dart) `embedding`: is there one; for an interaction, its presence mark
   Time, Step, Dt,
   Random,        ///< (seed : int, dart) `orbit`: uniform in [0, 1), hash of seed, scene seed, orbit
   // collections: darts, smallest first unless said otherwise
