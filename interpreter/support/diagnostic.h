@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "support/source_map.h"
@@ -48,10 +49,11 @@ struct Diagnostic {
   Severity severity = Severity::Error;
 };
 
-/// Collects the diagnostics of a run. Two messages of one kind at one place are one.
+/// Collects the diagnostics of a run. A message that is reported again (kind, place, text) counts
+/// once, so a check may run for each dimension of the map.
 class Diagnostics {
  public:
-  /// Returns false when an equal message (kind, place, text) was reported before.
+  /// Returns false when an equal message was reported before.
   bool report(Diagnostic diagnostic);
   [[nodiscard]] bool has_errors() const { return error_count_ > 0; }
   [[nodiscard]] std::size_t error_count() const { return error_count_; }
@@ -61,10 +63,12 @@ class Diagnostics {
 
  private:
   std::vector<Diagnostic> diagnostics_;
+  std::unordered_set<std::string> seen_;
   std::size_t error_count_ = 0;
 };
 
-/// Prints in order of file and position, at most `limit` errors, with carets and places.
+/// Prints in order of file and position (messages without a place last), with source lines, carets
+/// under the place and dashes under what explains it; at most `limit` errors and as many warnings.
 void render(const Diagnostics& diagnostics, const SourceMap& sources, std::ostream& out,
             std::size_t limit = 20);
 

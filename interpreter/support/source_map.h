@@ -24,9 +24,12 @@ class SourceMap {
   [[nodiscard]] const std::string& name(FileId file) const;
   [[nodiscard]] std::string_view text(FileId file) const;
   [[nodiscard]] std::string_view text(Span span) const;
+  /// Offsets past the end of the text are taken as its end.
   [[nodiscard]] LineColumn locate(FileId file, std::uint32_t offset) const;
   /// The text of a 1-based line without its line end.
   [[nodiscard]] std::string_view line(FileId file, std::uint32_t line) const;
+  /// Offset of the first byte of a 1-based line.
+  [[nodiscard]] std::uint32_t line_start(FileId file, std::uint32_t line) const;
   [[nodiscard]] std::size_t size() const { return files_.size(); }
 
  private:
@@ -35,6 +38,8 @@ class SourceMap {
     std::string text;
     std::vector<std::uint32_t> line_starts;
   };
+  [[nodiscard]] const File& at(FileId file) const;
+
   std::deque<File> files_;
 };
 
