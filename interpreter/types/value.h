@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,9 @@ struct Value {
   [[nodiscard]] bool finite() const;
 };
 
-/// "(0, 1.5, -2)", "true", "3.25"; numbers print with the fewest digits that read back the same.
+/// The fewest digits that read back as the same number: "0.1", "1e+20", "-0", "nan".
+[[nodiscard]] std::string number_text(double x);
+/// "(0, 1.5, -2)", "true", "3.25"; matrices by rows, arrays in [], darts by id.
 [[nodiscard]] std::string to_string(const Value& value);
 
 }  // namespace gmsim::types
