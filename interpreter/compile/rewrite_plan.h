@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compile/match_plan.h"
+
+/// What a rule changes at a match: plain data made by compile_rewrite, executed by engine::Rewriter.
+namespace gmsim::compile {
+
+/// A link that the rule makes, in every row. Links that are equal on both sides are not written.
+struct LinkWrite {
+  static constexpr std::int32_t kExplicit = -1;
+  std::int8_t dimension = 0;
+  Column from = 0;
+  Column to = 0;
+  /// Explicit: alpha_dimension links dart(from, row) and dart(to, row) both ways. Else a label
+  /// entry: alpha_dimension(dart(from, row)) := dart(from, next[row][position]).
+  std::int32_t position = kExplicit;
+};
+
+enum class NodeFate : std::uint8_t { Preserved, Created, Removed };
+
+/// A column whose darts the rule touches.
+struct ColumnChange {
+  Column column = 0;
+  NodeFate fate = NodeFate::Preserved;
+  OrbitType links;  ///< dimensions in which its links change; all of them unless preserved
+};
+
+/// node.embedding = value: the value is computed on the map before the rewrite, once for every
+/// group of rows that the rule itself puts into one orbit, and stored in the orbit after it.
+struct Assignment {
+  Column column = 0;
+  EmbeddingId embedding{};
+  ExprPtr value;
+  /// Label positions that stay inside the orbit: rows joined by them are one orbit.
+  std::vector<std::uint32_t> joined = {};
+  Span target_span;
+  Span span;
+};
+
+struct RewritePlan {
+  std::uint32_t kept_columns = 0;     ///< columns of the left side; created ones follow
+  std::uint32_t created_columns = 0;
+  std::vector<std::string> created_names;
+  std::vector<LinkWrite> writes;
+  std::vector<ColumnChange> changes;  ///< ascending column; empty: the rule changes values only
+  std::vector<Assignment> assignments;
+  OrbitType changed_links;            ///< union over all changes
+
+  [[nodiscard]] bool creates() const { return created_columns > 0; }
+  [[nodiscard]] bool removes() const;
+  /// Can an orbit of this type be made, cut, joined or removed?
+  [[nodiscard]] bool affects(OrbitType type) const;
+};
+
+}  // namespace gmsim::compile

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "types/expr.h"
+#include "types/value.h"
+
+namespace gmsim::engine {
+
+/// Stack of doubles whose blocks never move while they are in use.
+class Arena {
+ public:
+  struct Mark {
+    std::size_t chunk = 0;
+    std::size_t used = 0;
+  };
+  [[nodiscard]] double* allocate(std::size_t count);
+  [[nodiscard]] Mark mark() const { return {chunk_, used_}; }
+  void release(Mark mark) {
+    chunk_ = mark.chunk;
+    used_ = mark.used;
+  }
+
+ private:
+  struct Chunk {
+    std::unique_ptr<double[]> data;
+    std::size_t size = 0;
+  };
+  std::vector<Chunk> chunks_;
+  std::size_t chunk_ = 0;
+  std::size_t used_ = 0;
+};
+
+/// The locals of one item: a dart, numbers or a collection of darts in each slot.
+class Frame {
+ public:
+  explicit Frame(std::uint32_t slots = 0) : cells_(slots) {}
+  /// Empties all slots and makes room for `slots` of them.
+  void reset(std::uint32_t slots);
+
+  void set(types::Slot slot, types::DartId dart);
+  void set(types::Slot slot, std::span<const double> numbers);
+  void set(types::Slot slot, std::vector<types::DartId> darts);
+  void set(types::Slot slot, const types::Value& value);
+  [[nodiscard]] bool has(types::Slot slot) const { return cell(slot).kind != Kind::Empty; }
+
+  [[nodiscard]] types::DartId dart(types::Slot slot) const { return cell(slot).dart; }
+  [[nodiscard]] std::span<const double> numbers(types::Slot slot) const {
+    return {cell(slot).numbers, cell(slot).count};
+  }
+  [[nodiscard]] const std::vector<types::DartId>& darts(types::Slot slot) const;
+
+ private:
+  friend class TreeEvaluator;
+  enum class Kind : std::uint8_t { Empty, Dart, Numbers, Darts };
+  struct Cell {
+    Kind kind = Kind::Empty;
+    std::uint32_t count = 0;
+    types::DartId dart = types::kNoDart;
+    const double* numbers = nullptr;
+    std::uint32_t collection = 0;
+  };
+  [[nodiscard]] const Cell& cell(types::Slot slot) const { return cells_[types::index(slot)]; }
+  [[nodiscard]] Cell& cell(types::Slot slot) { return cells_[types::index(slot)]; }
+
+  std::vector<Cell> cells_;
+  std::vector<std::vector<types::DartId>> collections_;
+  Arena arena_;
+};
+
+/// Parameters that a caller gives to a rule or an operation.
+using Arguments = std::vector<std::pair<types::Slot, types::Value>>;
+
+}  // namespace gmsim::engine

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compile/program.h"
+#include "engine/matcher.h"
+#include "engine/state.h"
+#include "gmap/journal.h"
+#include "gmap/orbit_index.h"
+#include "support/diagnostic.h"
+
+namespace gmsim::engine {
+
+/// How the orbits of one indexed type changed.
+struct OrbitEvents {
+  OrbitType type;
+  gmap::OrbitRepair repair;
+};
+
+/// What one or several rewrites changed and what it cost: counters for `--profile`.
+struct Effects {
+  std::vector<DartId> touched;       ///< darts with a changed link, created and removed ones too
+  std::vector<OrbitEvents> orbits;   ///< one entry for each orbit type in use that was repaired
+  std::uint64_t applications = 0;    ///< rules applied
+  std::uint64_t dropped = 0;         ///< candidates that did not match when their turn came
+  std::uint64_t created_darts = 0;
+  std::uint64_t removed_darts = 0;
+  std::uint64_t matched_rows = 0;    ///< rows of all match tables
+  std::uint64_t written_values = 0;  ///< embedding values stored
+
+  void clear();
+  gmap::OrbitRepair& repair(OrbitType type);
+  [[nodiscard]] std::uint64_t visited_darts() const;
+};
+
+/// The result of applying a rule or an operation. Unless Applied, the state is bitwise as before.
+struct RewriteOutcome {
+  enum class Status : std::uint8_t {
+    Applied,
+    NotMatched,  ///< the pattern does not hold there, or a condition is false: see `failure`
+    Failed       ///< see `error`
+  };
+  Status status = Status::Applied;
+  MatchFailure failure;
+  std::optional<support::Diagnostic> error = std::nullopt;
+  Effects effects;
+
+  [[nodiscard]] bool applied() const { return status == Status::Applied; }
+};
+
+struct RewriteOptions {
+  MatcherKind matcher = MatcherKind::Planned;
+  bool validate = false;  ///< check the map and the store after every rewrite
+};
+
+class Rewriter;
+
+/// Called for every created orbit of an embedding that marks an interaction (role Presence): who
+/// owns the scene gives the mark and the parameters by Rewriter::set_value. An error undoes the
+/// rewrite.
+using CreatedOrbitHook = std::function<std::optional<support::Diagnostic>(
+    Rewriter&, EmbeddingId presence, DartId smallest)>;
+
+/// Applies rules to a state (docs/theory.md, application): expressions on the old map, topology,
+/// orbit repair, values. All or nothing, each application by itself or, between begin() and
+/// commit() or roll_back(), all of them together.
+class Rewriter {
+ public:
+  explicit Rewriter(State& state, RewriteOptions options = {});
+  ~Rewriter();
+
+  /// Applies at given hook darts, one for each hook of the rule.
+  RewriteOutcome apply(const compile::Rule& rule, std::span<const DartId> hooks,
+                       const Arguments& arguments = {});
+  /// Applies at each of the darts in turn (one-hook rules), matching again when its turn comes;
+  /// what no longer matches is counted in `effects.dropped`. Stops at the first error, before
+  /// which everything stays applied.
+  RewriteOutcome apply_each(const compile::Rule& rule, std::span<const DartId> darts,
+                            const Arguments& arguments = {});
+  /// A rule that changes values only, at all the darts at once: reads the old state everywhere,
+  /// then writes; different values for one orbit are an error (E7).
+  RewriteOutcome apply_at_once(const compile::Rule& rule, std::span<const DartId> darts,
+                               const Arguments& arguments = {});
+
+  /// Everything from here on is undone together. Does not nest.
+  void begin();
+  void commit();
+  void roll_back();
+  [[nodiscard]] bool recording() const;
+
+  /// Stores a value at the orbit of a dart, undone with the rest.
+  void set_value(EmbeddingId id, DartId dart, std::span<const double> value);
+
+  void on_created(CreatedOrbitHook hook);
+  [[nodiscard]] State& state();
+  [[nodiscard]] Matcher& matcher();
+
+ private:
+  friend class OperationRunner;
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace gmsim::engine
