@@ -7,7 +7,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 # What the build needs, nothing taken for granted (docs/dependencies.md says what each is for).
 build_packages=(
-  cmake ninja-build g++ flex libfl-dev bison
+  cmake ninja-build g++ flex bison
   libfmt-dev libcli11-dev libyaml-cpp-dev libtinyobjloader-dev
 )
 # What the tests need on top.

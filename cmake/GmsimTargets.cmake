@@ -4,6 +4,8 @@ add_library(gmsim_flags INTERFACE)
 target_include_directories(gmsim_flags INTERFACE
   "${PROJECT_SOURCE_DIR}/interpreter" "${PROJECT_BINARY_DIR}/generated")
 target_compile_options(gmsim_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion)
+# Internal errors name files of the repository, wherever it was built.
+target_compile_options(gmsim_flags INTERFACE "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
 if(GMSIM_SANITIZE)
   target_compile_options(gmsim_flags INTERFACE
     -fsanitize=${GMSIM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
