@@ -1,9 +1,61 @@
 // SPDX-License-Identifier: MIT
+#include "check/check_structure.h"
+#include "check/link_problems.h"
 #include "check/passes.h"
 
 namespace gmsim::check {
+namespace {
 
-bool check_topology(const Rule&, support::Diagnostics&) { return true; }
-bool check_match(const Pattern&, NodeIndex, int, support::Diagnostics&) { return true; }
+/// The label whose length all others must have: the first hook's, or any when there is no hook.
+const PatternNode* reference_label(const Pattern& left, const std::vector<NodeIndex>& hooks) {
+  if (!hooks.empty()) return &left.nodes[hooks.front()];
+  return left.nodes.empty() ? nullptr : &left.nodes.front();
+}
+
+bool no_paths(const Pattern& right, support::Diagnostics& diagnostics) {
+  for (const PatternPath& path : right.paths)
+    diagnostics.report({support::DiagnosticKind::PathInRight,
+                        "a path of several links stands in `right`", path.span, {}, {},
+                        "name the darts in between: every link that a rule makes has two named ends"});
+  return right.paths.empty();
+}
+
+}  // namespace
+
+bool check_topology(const Rule& rule, support::Diagnostics& diagnostics) {
+  std::set<std::string> reported;
+  StructureChecker structure(rule.dimension, reported, diagnostics);
+  const PatternNode* reference = reference_label(rule.left, rule.hooks);
+  const std::size_t length = reference != nullptr ? reference->label.size() : 0;
+  std::vector<PatternSide> sides{{rule.left, "`left`"}};
+  if (rule.has_right) sides.push_back({rule.right, "`right`"});
+
+  bool good = !rule.has_right || no_paths(rule.right, diagnostics);
+  for (const PatternSide& side : sides) {
+    good &= structure.dimensions(side);
+    good &= structure.names(side);
+    good &= structure.label_lengths(side, length, reference);
+    good &= structure.double_links(side);
+  }
+  const bool rooted = structure.hook_labels(rule.left, rule.hooks) &
+                      structure.hook_counts(sides.front(), rule.hooks);
+  // The links of a pattern make sense only when C1 to C3 and C6 hold.
+  if (!good || !rule.has_right) return good && rooted;
+  return check_links(rule, reported, diagnostics) && rooted;
+}
+
+bool check_match(const Pattern& match, NodeIndex hook, int dimension,
+                 support::Diagnostics& diagnostics) {
+  std::set<std::string> reported;
+  StructureChecker structure(dimension, reported, diagnostics);
+  const PatternSide side{match, "`match`"};
+  const std::vector<NodeIndex> hooks{hook};
+  bool good = structure.dimensions(side);
+  good &= structure.label_lengths(side, match.nodes[hook].label.size(), &match.nodes[hook]);
+  good &= structure.double_links(side);
+  good &= structure.hook_labels(match, hooks);
+  good &= structure.hook_counts(side, hooks);
+  return good;
+}
 
 }  // namespace gmsim::check
