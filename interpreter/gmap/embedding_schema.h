@@ -56,6 +56,7 @@ class EmbeddingSchema {
   [[nodiscard]] EmbeddingDecl& operator[](types::EmbeddingId id) {
     return declarations_[types::index(id)];
   }
+  /// By name; of several with one name the newest, which shadows the others.
   [[nodiscard]] std::optional<types::EmbeddingId> find(std::string_view name) const;
   [[nodiscard]] std::size_t size() const { return declarations_.size(); }
   [[nodiscard]] auto begin() const { return declarations_.begin(); }

@@ -12,25 +12,34 @@
 namespace gmsim::gmap {
 
 /// The values of one embedding, `stride` doubles a row (component_count of its type), rows as in
-/// the OrbitIndex of its orbit type.
+/// the OrbitIndex of its orbit type. A row without a value (an optional embedding, or a dead orbit)
+/// holds zeros.
 class EmbeddingColumn {
  public:
   EmbeddingColumn(std::uint32_t stride, bool optional) : stride_(stride), optional_(optional) {}
 
   [[nodiscard]] std::uint32_t stride() const { return stride_; }
+  [[nodiscard]] bool optional() const { return optional_; }
+  /// One past the last row there is room for.
+  [[nodiscard]] Row row_end() const { return static_cast<Row>(present_.size()); }
   [[nodiscard]] std::span<const double> get(Row row) const {
     return {data_.data() + std::size_t{row} * stride_, stride_};
   }
   [[nodiscard]] bool has(Row row) const { return row < present_.size() && present_[row] != 0; }
   void set(Row row, std::span<const double> value, Journal* journal = nullptr);
   void clear(Row row, Journal* journal = nullptr);
-  void resize(Row row_end);
+  /// Gives `to` what `from` has, be it no value: how a part of a split orbit inherits.
+  void copy(Row from, Row to, Journal* journal = nullptr);
+  /// New rows have no value.
+  void resize(Row row_end, Journal* journal = nullptr);
   [[nodiscard]] std::span<const double> data() const { return data_; }
   [[nodiscard]] std::span<double> data() { return data_; }
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   friend class Journal;
+  void before_change(Row row, Journal* journal);
+
   std::uint32_t stride_;
   bool optional_;
   std::vector<double> data_;
@@ -39,6 +48,7 @@ class EmbeddingColumn {
 
 /// The embeddings of one map: a column for each stored embedding that is in use and an orbit index
 /// for each orbit type that is in use. Derived embeddings have no column; readers evaluate them.
+/// Schema and map are borrowed and stay where they are.
 class EmbeddingStore {
  public:
   EmbeddingStore(const EmbeddingSchema& schema, const GMap& map);
@@ -51,6 +61,8 @@ class EmbeddingStore {
   [[nodiscard]] const EmbeddingColumn& column(types::EmbeddingId id) const;
   /// The index of an orbit type, made on first use.
   OrbitIndex& use_index(OrbitType type);
+  /// The index whose rows a column in use has.
+  [[nodiscard]] const OrbitIndex& index_of(types::EmbeddingId id) const;
   /// Null when the type is not indexed.
   [[nodiscard]] const OrbitIndex* find_index(OrbitType type) const;
   [[nodiscard]] std::span<const std::unique_ptr<OrbitIndex>> indices() const { return indices_; }
@@ -59,15 +71,25 @@ class EmbeddingStore {
   [[nodiscard]] std::span<const double> get(types::EmbeddingId id, DartId d) const;
   void set(types::EmbeddingId id, DartId d, std::span<const double> value,
            Journal* journal = nullptr);
+  /// Gives every column a row for each row of its index, after repairs.
+  void grow_columns(Journal* journal = nullptr);
+  /// Cuts every column down to the rows of its index, after a roll-back.
+  void trim_columns();
   /// The embeddings in use.
   [[nodiscard]] std::vector<types::EmbeddingId> embeddings() const;
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
+  struct Slot {
+    std::unique_ptr<EmbeddingColumn> column;  // null: not in use
+    const OrbitIndex* index = nullptr;
+  };
+  [[nodiscard]] const Slot& slot(types::EmbeddingId id) const;
+
   const EmbeddingSchema* schema_;
   const GMap* map_;
   std::vector<std::unique_ptr<OrbitIndex>> indices_;
-  std::vector<std::unique_ptr<EmbeddingColumn>> columns_;  // by EmbeddingId; null: not in use
+  std::vector<Slot> slots_;  // by EmbeddingId
 };
 
 }  // namespace gmsim::gmap

@@ -1,1 +1,139 @@
 // SPDX-License-Identifier: MIT
+#include "gmap/gmap.h"
+
+#include "gmap/journal.h"
+#include "gmap/orbit_walk.h"
+
+namespace gmsim::gmap {
+
+namespace {
+
+/// Follows one link from both darts of a pair. False when one is free and the other is not.
+bool step_pair(const DartId* alpha, DartId& a, DartId& b, bool& moved) {
+  const DartId next_a = alpha[index(a)], next_b = alpha[index(b)];
+  moved = next_a != a;
+  if (moved != (next_b != b)) return false;
+  a = next_a;
+  b = next_b;
+  return true;
+}
+
+/// Calls visit(x, y) for the pairs that the isomorphism between two orbits of at most two links puts
+/// together; stops and returns false when there is none or visit returns false.
+template <class Visit>
+bool walk_pairs(const detail::OrbitLinks& links, DartId a, DartId b, Visit&& visit) {
+  if (!visit(a, b)) return false;
+  if (links.count == 0) return true;
+  const int last = links.count - 1;
+  for (int start = 0; start <= last; ++start) {  // along the orbit one way, then the other
+    DartId x = a, y = b;
+    for (int k = start;; k = last - k) {
+      bool moved = false;
+      if (!step_pair(links.alpha[k], x, y, moved)) return false;
+      if (!moved) break;
+      if ((x == a) != (y == b)) return false;
+      if (x == a) return true;  // both are cycles of the same length
+      if (!visit(x, y)) return false;
+      if (last == 0) return true;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+GMap::GMap(int dimension) : dimension_(dimension) {
+  GMSIM_CHECK(dimension >= 1 && dimension <= types::kMaxDimension, "a map has dimension 1, 2 or 3");
+}
+
+void GMap::reserve(std::uint32_t darts) {
+  for (int i = 0; i <= dimension_; ++i) alpha_[i].reserve(darts);
+}
+
+DartId GMap::add_darts(std::uint32_t count) {
+  const std::uint32_t first = dart_end();
+  GMSIM_CHECK(count < 0x80000000u - first, "more than 2^31 darts");
+  if (journal_ != nullptr) journal_->begin(*this);
+  for (int i = 0; i <= dimension_; ++i) {
+    alpha_[i].resize(first + count);
+    for (std::uint32_t d = first; d < first + count; ++d) alpha_[i][d] = DartId{d};
+  }
+  alive_ += count;
+  return DartId{first};
+}
+
+void GMap::drop_links(DartId d) {
+  GMSIM_CHECK(alive(d), "dart to remove is not alive");
+  for (int i = 0; i <= dimension_; ++i) set_alpha(i, d, kNoDart);
+  --alive_;
+}
+
+void GMap::check_unreachable(DartId d, std::span<const DartId> neighbours) const {
+  for (int i = 0; i <= dimension_; ++i) {
+    GMSIM_CHECK(!alive(neighbours[i]) || alpha(i, neighbours[i]) != d,
+                "an alive dart is linked to a removed one");
+  }
+}
+
+void GMap::remove_dart(DartId d) { remove_darts({&d, 1}); }
+
+void GMap::remove_darts(std::span<const DartId> darts) {
+  std::vector<std::array<DartId, types::kMaxDimension + 1>> neighbours(darts.size());
+  for (std::size_t k = 0; k < darts.size(); ++k) {
+    for (int i = 0; i <= dimension_; ++i) neighbours[k][i] = alpha(i, darts[k]);
+    drop_links(darts[k]);
+  }
+  for (std::size_t k = 0; k < darts.size(); ++k) check_unreachable(darts[k], neighbours[k]);
+}
+
+void GMap::link(int i, DartId a, DartId b) {
+  GMSIM_CHECK(a != b && is_free(i, a) && is_free(i, b), "darts to link must be free and different");
+  set_alpha(i, a, b);
+  set_alpha(i, b, a);
+}
+
+void GMap::unlink(int i, DartId a) {
+  const DartId b = alpha(i, a);
+  GMSIM_CHECK(a != b && alpha(i, b) == a, "dart to unlink is free");
+  set_alpha(i, a, a);
+  set_alpha(i, b, b);
+}
+
+bool GMap::can_sew(int i, DartId a, DartId b) const {
+  const detail::OrbitLinks links(*this, sew_type(i));
+  return walk_pairs(links, a, b, [&](DartId x, DartId y) {
+    return is_free(i, x) && is_free(i, y) && x != b;
+  });
+}
+
+bool GMap::sew(int i, DartId a, DartId b, std::vector<DartId>* touched) {
+  if (!can_sew(i, a, b)) return false;
+  const detail::OrbitLinks links(*this, sew_type(i));
+  walk_pairs(links, a, b, [&](DartId x, DartId y) {
+    set_alpha(i, x, y);
+    set_alpha(i, y, x);
+    if (touched != nullptr) touched->insert(touched->end(), {x, y});
+    return true;
+  });
+  return true;
+}
+
+void GMap::unsew(int i, DartId a, std::vector<DartId>* touched) {
+  detail::walk_linear(detail::OrbitLinks(*this, sew_type(i)), a, [&](DartId x) {
+    const DartId y = alpha(i, x);
+    if (y == x) return;
+    set_alpha(i, x, x);
+    set_alpha(i, y, y);
+    if (touched != nullptr) touched->insert(touched->end(), {x, y});
+  });
+}
+
+void GMap::record_alpha(int i, DartId d) { journal_->record(*this, i, d); }
+
+std::size_t GMap::memory_bytes() const {
+  std::size_t bytes = sizeof(*this);
+  for (const auto& alpha : alpha_) bytes += alpha.capacity() * sizeof(DartId);
+  return bytes;
+}
+
+}  // namespace gmsim::gmap

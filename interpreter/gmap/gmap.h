@@ -22,6 +22,9 @@ class Journal;
 /// (theory 1.1). alpha(i, d) == d means that d is i-free. Dead darts keep their id and have
 /// alpha(0, d) == kNoDart.
 ///
+/// Ids are given out in ascending order and never again, so a dart that existed before a change is
+/// smaller than one the change made.
+///
 /// The single-pair forms link/unlink/set_alpha may leave the map invalid in between; sew/unsew keep
 /// the cycle condition alpha_i alpha_j = alpha_j alpha_i for i + 2 <= j.
 class GMap {
@@ -48,12 +51,23 @@ class GMap {
   DartId add_darts(std::uint32_t count);
   /// Marks a dart dead. Nothing alive may be linked to it any more; its own links are dropped.
   void remove_dart(DartId d);
+  /// Marks several darts dead, each given once; they may still be linked to each other.
+  void remove_darts(std::span<const DartId> darts);
 
   /// Single pair: both darts must be i-free (link) or linked (unlink).
   void link(int i, DartId a, DartId b);
   void unlink(int i, DartId a);
   /// Raw write of one entry; the caller restores the involution.
-  void set_alpha(int i, DartId d, DartId value);
+  void set_alpha(int i, DartId d, DartId value) {
+    if (journal_ != nullptr) record_alpha(i, d);
+    alpha_[i][index(d)] = value;
+  }
+
+  /// The orbit <0..i-2, i+2..n> whose darts are linked together by sew and unsew in dimension i.
+  [[nodiscard]] OrbitType sew_type(int i) const {
+    return OrbitType::from_bits(static_cast<std::uint8_t>(
+        OrbitType::range(0, i - 2).bits() | OrbitType::range(i + 2, dimension_).bits()));
+  }
 
   /// True when sew(i, a, b) is possible: the orbits <0..i-2, i+2..n> of a and b are isomorphic with
   /// a on b, disjoint, and all their darts i-free.
@@ -66,10 +80,15 @@ class GMap {
 
   /// While set, every change is recorded so that it can be undone.
   void set_journal(Journal* journal) { journal_ = journal; }
+  [[nodiscard]] Journal* journal() const { return journal_; }
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   friend class Journal;
+  void record_alpha(int i, DartId d);
+  void drop_links(DartId d);
+  void check_unreachable(DartId d, std::span<const DartId> neighbours) const;
+
   int dimension_;
   std::uint32_t alive_ = 0;
   std::array<std::vector<DartId>, types::kMaxDimension + 1> alpha_;

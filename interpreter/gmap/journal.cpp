@@ -1,1 +1,145 @@
 // SPDX-License-Identifier: MIT
+#include "gmap/journal.h"
+
+#include <algorithm>
+
+namespace gmsim::gmap {
+
+struct Journal::MapLog {
+  struct Link {
+    DartId dart;
+    DartId old;
+    std::uint8_t dimension;
+  };
+  std::uint32_t dart_end, alive;
+  std::vector<Link> links = {};
+};
+
+struct Journal::IndexLog {
+  struct RowOfDart {
+    DartId dart;
+    Row old;
+  };
+  struct SmallestOfRow {
+    Row row;
+    DartId old;
+  };
+  OrbitIndex* index;
+  std::size_t dart_end;
+  Row row_end, alive;
+  std::vector<RowOfDart> rows = {};
+  std::vector<SmallestOfRow> smallest = {};
+};
+
+struct Journal::ColumnLog {
+  struct Value {
+    Row row;
+    std::uint8_t present;
+  };
+  EmbeddingColumn* column;
+  Row row_end;
+  std::vector<Value> values = {};
+  std::vector<double> data = {};  // `stride` for each of `values`
+};
+
+Journal::Journal() = default;
+Journal::~Journal() = default;
+
+void Journal::begin(const GMap& map) {
+  if (map_.empty()) map_.push_back({map.dart_end(), map.dart_count()});
+}
+
+void Journal::record(const GMap& map, int i, DartId d) {
+  begin(map);
+  MapLog& log = map_.front();
+  if (gmap::index(d) >= log.dart_end) return;
+  log.links.push_back({d, map.alpha(i, d), static_cast<std::uint8_t>(i)});
+}
+
+Journal::IndexLog& Journal::log(OrbitIndex& index) {
+  auto found = std::find_if(indices_.begin(), indices_.end(),
+                            [&](const IndexLog& log) { return log.index == &index; });
+  if (found != indices_.end()) return *found;
+  indices_.push_back({&index, index.rows_.size(), index.row_end(), index.orbit_count()});
+  return indices_.back();
+}
+
+void Journal::begin(OrbitIndex& index) { log(index); }
+
+void Journal::record_row(OrbitIndex& index, DartId d, Row old) {
+  IndexLog& entry = log(index);
+  if (gmap::index(d) < entry.dart_end) entry.rows.push_back({d, old});
+}
+
+void Journal::record_smallest(OrbitIndex& index, Row row) {
+  IndexLog& entry = log(index);
+  if (row < entry.row_end) entry.smallest.push_back({row, index.smallest_[row]});
+}
+
+Journal::ColumnLog& Journal::log(EmbeddingColumn& column) {
+  auto found = std::find_if(columns_.begin(), columns_.end(),
+                            [&](const ColumnLog& log) { return log.column == &column; });
+  if (found != columns_.end()) return *found;
+  columns_.push_back({&column, column.row_end()});
+  return columns_.back();
+}
+
+void Journal::begin(EmbeddingColumn& column) { log(column); }
+
+void Journal::record(EmbeddingColumn& column, Row row) {
+  ColumnLog& entry = log(column);
+  if (row >= entry.row_end) return;
+  const auto value = column.get(row);
+  entry.values.push_back({row, column.present_[row]});
+  entry.data.insert(entry.data.end(), value.begin(), value.end());
+}
+
+void Journal::roll_back(GMap& map, EmbeddingStore& store) {
+  for (const MapLog& log : map_) {
+    for (auto link = log.links.rbegin(); link != log.links.rend(); ++link) {
+      map.alpha_[link->dimension][gmap::index(link->dart)] = link->old;
+    }
+    for (int i = 0; i <= map.dimension(); ++i) map.alpha_[i].resize(log.dart_end);
+    map.alive_ = log.alive;
+  }
+  for (const IndexLog& log : indices_) {
+    OrbitIndex& index = *log.index;
+    for (auto row = log.rows.rbegin(); row != log.rows.rend(); ++row) {
+      index.rows_[gmap::index(row->dart)] = row->old;
+    }
+    for (auto smallest = log.smallest.rbegin(); smallest != log.smallest.rend(); ++smallest) {
+      index.smallest_[smallest->row] = smallest->old;
+    }
+    index.rows_.resize(log.dart_end);
+    index.smallest_.resize(log.row_end);
+    index.alive_ = log.alive;
+  }
+  for (const ColumnLog& log : columns_) {
+    EmbeddingColumn& column = *log.column;
+    for (std::size_t i = log.values.size(); i-- > 0;) {
+      const auto [row, present] = log.values[i];
+      column.present_[row] = present;
+      std::copy_n(log.data.begin() + static_cast<std::ptrdiff_t>(i * column.stride_),
+                  column.stride_, column.data_.begin() + std::ptrdiff_t{row} * column.stride_);
+    }
+    column.resize(log.row_end);
+  }
+  store.trim_columns();
+  commit();
+}
+
+void Journal::commit() {
+  map_.clear();
+  indices_.clear();
+  columns_.clear();
+}
+
+std::size_t Journal::size() const {
+  std::size_t count = 0;
+  for (const MapLog& log : map_) count += log.links.size();
+  for (const IndexLog& log : indices_) count += log.rows.size() + log.smallest.size();
+  for (const ColumnLog& log : columns_) count += log.values.size();
+  return count;
+}
+
+}  // namespace gmsim::gmap

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "gmap/embedding_store.h"
 #include "gmap/gmap.h"
@@ -9,17 +11,46 @@
 namespace gmsim::gmap {
 
 /// Records changes of a map, its orbit indices and its columns so that an operation can be all or
-/// nothing. Cost: one record per changed entry, nothing when no journal is set.
+/// nothing. Cost: one record per changed entry, nothing when no journal is set. What is new since
+/// the recording began (darts, rows) needs no record: undoing cuts it off.
+///
+/// A map records while `GMap::set_journal` is on; indices and columns when the journal is given to
+/// the call that changes them. One journal serves one map and its store, which stay where they are
+/// and gain no index or column while it holds records.
 class Journal {
  public:
   Journal();
   ~Journal();
-  /// Undoes everything recorded, newest first; map and store are bitwise as before.
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  /// Undoes everything recorded, newest first; map and store are bitwise as before. Columns that
+  /// grew together with an index shrink with it.
   void roll_back(GMap& map, EmbeddingStore& store);
   /// Forgets everything recorded: the changes stay.
   void commit();
+  /// Number of entries recorded.
   [[nodiscard]] std::size_t size() const;
-  // … the record functions called by GMap, OrbitIndex and EmbeddingColumn are declared here too.
+
+  // Called just before the change. `begin` notes the sizes, once.
+  void begin(const GMap& map);
+  void record(const GMap& map, int i, DartId d);
+  void begin(OrbitIndex& index);
+  void record_row(OrbitIndex& index, DartId d, Row old);
+  void record_smallest(OrbitIndex& index, Row row);
+  void begin(EmbeddingColumn& column);
+  void record(EmbeddingColumn& column, Row row);
+
+ private:
+  struct MapLog;
+  struct IndexLog;
+  struct ColumnLog;
+  IndexLog& log(OrbitIndex& index);
+  ColumnLog& log(EmbeddingColumn& column);
+
+  std::vector<MapLog> map_;  // empty or one
+  std::vector<IndexLog> indices_;
+  std::vector<ColumnLog> columns_;
 };
 
 }  // namespace gmsim::gmap

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct Mesh {
   std::vector<std::string> region_names;        ///< name of group i, or empty
 
   void add_cell(CellKind kind, const std::vector<std::uint32_t>& corners);
+  [[nodiscard]] std::span<const std::uint32_t> corners(std::size_t cell) const {
+    return std::span(cell_points).subspan(cell_begin[cell], cell_begin[cell + 1] - cell_begin[cell]);
+  }
   [[nodiscard]] std::size_t cell_count() const { return kinds.size(); }
 };
 
@@ -46,12 +50,27 @@ struct MeshMap {
   std::vector<std::uint32_t> dart_point;
   std::vector<std::uint32_t> dart_cell;
   std::vector<MeshProblem> problems;
+
+  /// True when a problem is fatal: the map is empty then.
+  [[nodiscard]] bool failed() const;
 };
 
-/// Builds the map of a mesh of any of the three dimensions: darts cell by cell in file order, facets shared by two cells sewn
-/// in dimension n. Polygons are taken as they come: a generalized map needs no orientation.
-/// Solids of negative volume are turned round and reported. A facet of more than two cells, a cell
-/// that repeats a point or has no measure, and pinched edges are named with their numbers.
+/// Builds the map of a mesh of any of the three dimensions: darts cell by cell in file order,
+/// facets shared by two cells sewn in dimension n. Polygons are taken as they come: a generalized
+/// map needs no orientation, and a mesh may be non-orientable.
+///
+/// Darts of a polygon: 2c at corner c and 2c + 1 at corner c + 1 for its edge c. A solid is its
+/// facets one after another, each like a polygon; the first facet is the base, so the first dart
+/// of a cell sits on its corner 0 and its 0-link leads to corner 1 (in a tetrahedron, d, d@0,
+/// d@1@0, d@2@1@0 are corners 0, 1, 2, 3).
+///
+/// Solids of negative volume (base seen clockwise from the rest) are turned round, by mirroring the
+/// order of their corners around corner 0, and reported. Unused points are reported and have no
+/// dart. Where the cells around a point or a 3D edge do not hang together by facets (a pinched vertex or
+/// edge), each part becomes a vertex or edge of its own, which is reported too. Fatal are a wrong
+/// number of corners, a point number beyond the last, a coordinate that is not finite, a cell that
+/// repeats a point or has no measure (below 1e-13 of its extent to the power of the dimension), and
+/// a facet of more than two cells. Every message names what it speaks of by number, the first ten.
 /// Nothing is built when a problem is fatal.
 [[nodiscard]] MeshMap build_map(const Mesh& mesh);
 

@@ -8,8 +8,10 @@
 
 namespace gmsim::gmap {
 
-/// Calls f(dart) for every dart of the orbit of `d`, each once, breadth first from d.
-/// Orbits of one or two links (half-edge, 2D vertex, 2D face …) are walked without any marks.
+/// Calls f(dart) for every dart of the orbit of `d`, each once, starting with d. Orbits of at most
+/// two links (half-edge, 2D vertex, 2D face …) are paths or cycles and are walked along, without any
+/// marks; larger ones breadth first. Cost: the darts of the orbit. `f` may change links that are
+/// not of the type.
 template <class Visitor>
 void for_each_dart(const GMap& map, OrbitType type, DartId d, Visitor&& f);
 
@@ -18,8 +20,8 @@ void for_each_dart(const GMap& map, OrbitType type, DartId d, Visitor&& f);
 /// The smallest dart of the orbit.
 [[nodiscard]] DartId smallest_dart(const GMap& map, OrbitType type, DartId d);
 [[nodiscard]] bool same_orbit(const GMap& map, OrbitType type, DartId a, DartId b);
-/// One dart (the smallest) for each `inner` orbit met by the `outer` orbit of d, ascending: the
-/// quotient `outer(d) / inner` of the language.
+/// One dart for each `inner` orbit met by the `outer` orbit of d, ascending: the smallest of those
+/// that are in both. The quotient `outer(d) / inner` of the language.
 [[nodiscard]] std::vector<DartId> quotient(const GMap& map, OrbitType outer, OrbitType inner,
                                            DartId d);
 /// One dart (the smallest) for each orbit of the map, ascending.
