@@ -75,6 +75,12 @@ build_release() {
   cmake --build "$root/build/release" --target gmsim
 }
 
+# Silent when there is nothing to build, so that the program's own output stands alone.
+is_up_to_date() {
+  [[ -x $root/build/release/gmsim ]] &&
+    ninja -C "$root/build/release" -n gmsim 2>/dev/null | grep -q 'no work to do'
+}
+
 # The Python packages that tests use, in an environment of their own; made again when they change.
 need_venv() {
   local venv=$root/build/venv wanted=$root/tests/requirements.txt
@@ -114,7 +120,7 @@ case ${1:-} in
     ;;
   run)
     shift
-    build_release >&2
+    is_up_to_date || build_release >&2
     exec "$root/build/release/gmsim" "$@"
     ;;
   test)
