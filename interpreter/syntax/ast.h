@@ -127,7 +127,19 @@ struct UnaryExpr {
   ExprPtr operand;
 };
 enum class BinaryOp {
-  Add, Sub, Mul, Div, Pow, Less, LessEqual, Greater, GreaterEqual, Equal, NotEqual, And, Or
+  Add,
+  Sub,
+  Mul,
+  Div,
+  Pow,
+  Less,
+  LessEqual,
+  Greater,
+  GreaterEqual,
+  Equal,
+  NotEqual,
+  And,
+  Or
 };
 struct BinaryExpr {
   BinaryOp op;
@@ -152,6 +164,8 @@ struct Expr {
                CallExpr, OrbitLiteralExpr, AllExpr, RangeExpr, FoldExpr, UnaryExpr, BinaryExpr,
                IfExpr, TupleExpr>
       node;
+  /// Levels of the tree from here down. The parser bounds it, so that walking a tree may recurse.
+  std::uint16_t height = 1;
 };
 
 // ---- patterns -----------------------------------------------------------------------------------
@@ -233,7 +247,8 @@ struct AssignStatement {
 struct EnergyStatement {
   ExprPtr value;
 };
-/// `force a, b on dart = …;` or `force x in polygon(a) on dart;` (then one target and a collection).
+/// `force a, b on dart = …;` or `force x in polygon(a) on dart;` (then one target and a
+/// collection).
 struct ForceStatement {
   std::vector<Name> targets;
   ExprPtr collection;

@@ -33,6 +33,9 @@ void dump_tokens(const support::SourceMap& sources, support::FileId file, std::o
 /// `--dump ast`: an indented tree, one node a line.
 void dump_ast(const RuleFile& file, std::ostream& out);
 
+/// The same for one expression.
+void dump_ast(const Expr& expr, std::ostream& out);
+
 /// Back to source text; parsing it again gives an equal tree.
 [[nodiscard]] std::string reprint(const RuleFile& file);
 [[nodiscard]] std::string reprint(const Expr& expr);
