@@ -122,6 +122,8 @@ bool read_section(MshState& state, std::string_view name) {
     read_msh_entities_4(state);
   } else if (name == "PartitionedEntities") {
     state.in.fail("partitioned meshes cannot be read; save the mesh without partitions");
+  } else if (name == "ParametricNodes") {
+    state.in.fail("parametric nodes cannot be read; save the mesh with Mesh.SaveParametric = 0");
   } else if (name == "NodeData" || name == "ElementData") {
     read_msh_data(state, name == "NodeData" ? MshDataPlace::Nodes : MshDataPlace::Elements);
   } else {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -18,6 +19,7 @@ namespace {
 struct Statement {
   std::size_t line;
   bool is_face;
+  std::size_t corners;
   std::size_t points_before;  ///< what relative corner numbers count back from
 };
 
@@ -28,7 +30,7 @@ struct CheckedText {
 };
 
 std::vector<std::string_view> words_of(std::string_view line) {
-  constexpr std::string_view kBlank = " \t";
+  constexpr std::string_view kBlank = " \t\r\v\f";
   std::vector<std::string_view> words;
   for (std::size_t at = line.find_first_not_of(kBlank); at != std::string_view::npos;
        at = line.find_first_not_of(kBlank, at)) {
@@ -56,11 +58,25 @@ void check_vertex(std::size_t line, const std::vector<std::string_view>& words,
   checked.points.push_back(point);
 }
 
-/// `7`, `7/1`, `7//3`, `7/1/3`; numbers from 1, or from -1 backwards.
+/// The first part of `7`, `7/1`, `7//3` or `7/1/3`; empty when it is something else.
+std::optional<std::int64_t> vertex_number(std::string_view word) {
+  std::optional<std::int64_t> vertex;
+  for (int part = 0; part < 3; ++part) {
+    const std::size_t slash = std::min(word.find('/'), word.size());
+    const auto number = parse_integer(word.substr(0, slash));
+    const bool left_empty = part > 0 && slash == 0;
+    if (!number && !left_empty) return std::nullopt;
+    if (part == 0) vertex = number == 0 ? std::nullopt : number;
+    if (slash == word.size()) return vertex;
+    word.remove_prefix(slash + 1);
+  }
+  return std::nullopt;
+}
+
+/// Vertices are numbered from 1, or from -1 backwards.
 void check_corner(std::size_t line, std::string_view word, std::size_t points) {
-  const std::string_view number = word.substr(0, word.find('/'));
-  const auto value = parse_integer(number);
-  if (!value || *value == 0) fail(line, fmt::format("`{}` is not a vertex number", shown(word)));
+  const auto value = vertex_number(word);
+  if (!value) fail(line, fmt::format("`{}` is not a vertex number", shown(word)));
   const auto last = static_cast<std::int64_t>(points);
   if (*value > last || *value < -last) {
     fail(line,
@@ -76,7 +92,7 @@ void check_element(std::size_t line, const std::vector<std::string_view>& words,
   if (!is_face && corners < 2) fail(line, fmt::format("a line with {} ends", corners));
   for (std::size_t i = 1; i < words.size(); ++i)
     check_corner(line, words[i], checked.points.size());
-  checked.statements.push_back({line, is_face, checked.points.size()});
+  checked.statements.push_back({line, is_face, corners, checked.points.size()});
 }
 
 void check_line(std::size_t number, std::string_view line, CheckedText& checked) {
@@ -114,8 +130,14 @@ struct Collector {
   std::size_t next = 0;
   std::map<std::string, std::int32_t> region_of_name;
   std::int32_t region = 0;
+  bool readings_differ = false;  ///< tinyobjloader finds other statements than the check did
 
   void element(const tinyobj::index_t* corners, int count) {
+    if (next == checked.statements.size() ||
+        checked.statements[next].corners != static_cast<std::size_t>(count)) {
+      readings_differ = true;
+      return;
+    }
     const Statement& statement = checked.statements[next++];
     std::vector<std::uint32_t> points;
     for (int i = 0; i < count; ++i) {
@@ -165,6 +187,10 @@ FileMesh read_obj(std::string_view bytes) {
   std::string error;
   if (!tinyobj::LoadObjWithCallback(text, callbacks, &collector, nullptr, nullptr, &error)) {
     throw MeshFileError{error, std::nullopt, std::nullopt};
+  }
+  if (collector.readings_differ || collector.next != checked.statements.size()) {
+    throw MeshFileError{"the faces and lines of this file can be read in two ways", std::nullopt,
+                        std::nullopt};
   }
   collector.mesh.points = checked.points;
   return std::move(collector.mesh);
