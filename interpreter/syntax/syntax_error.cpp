@@ -118,8 +118,9 @@ std::vector<std::string> expected_names(ExpectedSet set, ItemKind item) {
   if (set.is_after_operand()) {
     names.push_back("an operator");
     set.remove({token::PLUS, token::MINUS, token::TIMES, token::DIVIDE, token::POWER, token::DOT,
-                token::AT, token::LBRACKET, token::LESS, token::LESS_EQUAL, token::GREATER,
-                token::GREATER_EQUAL, token::EQUAL, token::NOT_EQUAL, token::AND, token::OR});
+                token::AT, token::LPAREN, token::LBRACKET, token::LESS, token::LESS_EQUAL,
+                token::GREATER, token::GREATER_EQUAL, token::EQUAL, token::NOT_EQUAL, token::AND,
+                token::OR});
   }
   for (const Kind kind : set.kinds()) {
     if (kind == token::INTEGER)
@@ -211,7 +212,7 @@ class Describer {
     if (!expected_.has_only({token::DOT, token::AT}) || unexpected_.before == nullptr) return false;
     const Token& found = unexpected_.found;
     return found.kind == token::LBRACE || found.kind == token::ASSIGN || !meant().empty() ||
-           is_keyword(unexpected_.before->kind);
+           is_keyword(unexpected_.before->kind) || leaves_block_open();
   }
   [[nodiscard]] std::string meant() const {
     std::vector<std::string> words;
@@ -226,9 +227,14 @@ class Describer {
     diagnostic.help = meant();
     if (diagnostic.help.empty() && unexpected_.found.kind == token::ASSIGN)
       diagnostic.help = fmt::format("a value gets a name by `let {} = …;`", text(before));
-    if (before.in_first_column && is_keyword(before.kind) && unexpected_.open_block != nullptr)
+    if (leaves_block_open())
       diagnostic.related.push_back({place(*unexpected_.open_block), "this block is not closed"});
     return diagnostic;
+  }
+
+  /// Does the word stand where items do?
+  [[nodiscard]] bool leaves_block_open() const {
+    return unexpected_.before->in_first_column && unexpected_.open_block != nullptr;
   }
 
   [[nodiscard]] std::string help_for(const Token& found) const {
