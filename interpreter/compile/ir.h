@@ -40,6 +40,7 @@ enum class Op : std::uint8_t {
 struct Input {
   enum class Source : std::uint8_t {
     Embedding,  ///< value of `embedding` at the dart of role `role`
+    MatchValue, ///< number `role` of the match's own list: what a match knows when it is made
     Time,       ///< s
     Dt,
     Step

@@ -65,6 +65,7 @@ class Forward {
       case Op::Component: case Op::Transpose: case Op::Sym: case Op::Full: case Op::Trace:
       case Op::Diagonal:
         return make.make(node.op, da, db, dc, node.aux);
+      case Op::Div: return make.div(make.sub(da, make.scale(db, y)), b);
       case Op::Scale: return make.add(make.scale(da, b), make.scale(a, db));
       case Op::Dot: case Op::Contract: case Op::Cross: case Op::Outer: case Op::MatVec: case Op::MatMul:
         return make.add(make.make(node.op, da, b), make.make(node.op, a, db));

@@ -37,7 +37,7 @@ class Reverse {
   void visit(NodeId y, NodeId g) {
     const Node node = graph_[y];
     Builder make(graph_, node.span);
-    if (visit_scalars(y, node, g, make) || visit_linear(node, g, make) ||
+    if (visit_scalars(y, node, g, make) || visit_linear(y, node, g, make) ||
         visit_vectors(y, node, g, make))
       return;
     visit_matrices(y, node, g, make);
@@ -52,12 +52,16 @@ class Reverse {
     return operand_count(node.op) > 0;
   }
 
-  bool visit_linear(const Node& node, NodeId g, Builder& make) {
+  bool visit_linear(NodeId y, const Node& node, NodeId g, Builder& make) {
     const auto [a, b, c] = node.operands;
     switch (node.op) {
       case Op::Add: pass(a, g); pass(b, g); return true;
       case Op::Sub: pass(a, g); pass(b, make.neg(g)); return true;
       case Op::Neg: pass(a, make.neg(g)); return true;
+      case Op::Div:
+        pass(a, make.div(g, b));
+        pass(b, make.neg(make.div(make.inner(g, y), b)));
+        return true;
       case Op::Scale: pass(a, make.inner(g, b)); pass(b, make.scale(a, g)); return true;
       case Op::Select: {
         const NodeId none = make.zero(node.type);

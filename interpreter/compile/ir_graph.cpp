@@ -31,7 +31,7 @@ ValueKind result_type(const Graph& graph, Op op, NodeId a, NodeId b) {
       return ValueKind::Sym3;
     case Op::Less: case Op::LessEqual: case Op::Equal: case Op::And: case Op::Or: case Op::Not:
       return ValueKind::Bool;
-    case Op::Add: case Op::Sub: case Op::Neg: case Op::Inverse: case Op::Frozen:
+    case Op::Add: case Op::Sub: case Op::Neg: case Op::Div: case Op::Inverse: case Op::Frozen:
       return graph[a].type;
     case Op::Scale: case Op::Select:
       return graph[b].type;

@@ -25,7 +25,9 @@ std::optional<NodeId> scalar_derivative(const Graph& graph, Builder& make, NodeI
   const NodeId one = make.number(1);
   switch (node.op) {
     case Op::Mul: return operand == 0 ? b : a;
-    case Op::Div: return operand == 0 ? make.div(one, b) : make.neg(make.div(y, b));
+    case Op::Div:
+      if (node.type != ValueKind::Real) return std::nullopt;
+      return operand == 0 ? make.div(one, b) : make.neg(make.div(y, b));
     case Op::Pow: return power_derivative(make, y, a, b, operand);
     case Op::Sqrt: return make.div(make.number(0.5), y);
     case Op::Abs: return make.make(Op::Sign, a);
