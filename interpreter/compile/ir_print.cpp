@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "compile/ir.h"
+
+namespace gmsim::compile::ir {
+namespace {
+
+void mark(const Graph& graph, NodeId id, std::vector<bool>& used) {
+  if (id == kNone || used[index(id)]) return;
+  used[index(id)] = true;
+  for (const NodeId operand : graph[id].operands) mark(graph, operand, used);
+}
+
+std::string input_text(const Input& input) {
+  switch (input.source) {
+    case Input::Source::Embedding:
+      return fmt::format("embedding {} of role {}", types::index(input.embedding), input.role);
+    case Input::Source::MatchValue: return fmt::format("match value {}", input.role);
+    case Input::Source::Time: return "time";
+    case Input::Source::Dt: return "dt";
+    case Input::Source::Step: return "step";
+  }
+  return "";
+}
+
+std::string node_text(const Graph& graph, const Node& node) {
+  if (node.op == Op::Constant) return fmt::format("{}", node.constant);
+  if (node.op == Op::Input) return input_text(graph.inputs()[node.aux]);
+  std::string text{name_of(node.op)};
+  for (const NodeId operand : node.operands)
+    if (operand != kNone) text += fmt::format(" n{}", index(operand));
+  return node.op == Op::Component ? text + fmt::format(" [{}]", node.aux) : text;
+}
+
+}  // namespace
+
+std::string to_string(const Graph& graph, std::span<const NodeId> roots) {
+  std::vector<bool> used(graph.size(), false);
+  for (const NodeId root : roots) mark(graph, root, used);
+  std::string text;
+  for (std::uint32_t i = 0; i < graph.size(); ++i)
+    if (used[i])
+      text += fmt::format("n{} : {} = {}\n", i,
+                          types::to_string(types::ValueType{graph[NodeId{i}].type, {}}),
+                          node_text(graph, graph[NodeId{i}]));
+  return text;
+}
+
+}  // namespace gmsim::compile::ir
