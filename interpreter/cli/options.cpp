@@ -104,6 +104,9 @@ void add_apply(CLI::App& app, Options& options) {
   command->add_option("--mesh", options.mesh, "a mesh file or a builder, see above")->required();
   command->add_option("--to", options.to, "try one candidate per orbit of this kind");
   command->add_option("--where", options.where, "only where this expression of `a` is true");
+  command->add_option("--at", options.at, "only at these darts, one for each hook of the rule")
+      ->delimiter(',')
+      ->type_name("DART,DART");
   command->add_option("--times", options.times, "repeat the whole application")
       ->check(CLI::Range(1u, 1000000u));
   command->add_option("--density", options.density, "mass per measure of an element, for corner_mass")

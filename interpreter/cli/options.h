@@ -31,6 +31,7 @@ struct Options {
   std::string mesh;
   std::string to;
   std::string where;
+  std::vector<std::uint32_t> at;  ///< hook darts
   std::vector<std::string> parameters;  ///< name=value
   std::uint32_t times = 1;
   std::filesystem::path output;
