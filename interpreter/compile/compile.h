@@ -12,16 +12,16 @@ namespace gmsim::compile {
 /// Plans for everything in a checked library. Cannot fail: what is checked can be compiled.
 [[nodiscard]] Program compile_program(const check::RuleLibrary& library);
 
-/// The plan of one pattern. `hooks` are nodes of `pattern`; `steps` and `parameters` are its
-/// predicates; `width` the columns of its table (0: as many as nodes).
-[[nodiscard]] MatchPlan compile_match(const check::Pattern& pattern,
-                                      const std::vector<check::NodeIndex>& hooks,
-                                      const std::vector<check::Parameter>& parameters,
-                                      const std::vector<check::Step>& steps,
-                                      std::uint32_t width = 0);
+/// The plan that finds the links of a pattern, without predicates. `hooks` are nodes of `pattern`.
+[[nodiscard]] MatchPlan compile_pattern(const check::Pattern& pattern,
+                                        const std::vector<check::NodeIndex>& hooks);
+/// Adds parameter defaults, lets and conditions to a plan. Those that cannot fail for want of a
+/// complete match are judged as soon as their darts are known.
+void add_predicates(MatchPlan& plan, const std::vector<check::Parameter>& parameters,
+                    const std::vector<check::Step>& steps, const gmap::EmbeddingSchema& schema);
 /// The plan of a rule's right side.
 [[nodiscard]] RewritePlan compile_rewrite(const check::Rule& rule,
-                                          const gmap::EmbeddingSchema& schema, int dimension);
+                                          const gmap::EmbeddingSchema& schema);
 [[nodiscard]] Rule compile_rule(const check::Rule& rule, const gmap::EmbeddingSchema& schema);
 
 /// `--dump plan`: every item, or those called `only`.

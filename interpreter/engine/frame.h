@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <utility>
@@ -40,6 +41,8 @@ class Arena {
 class Frame {
  public:
   explicit Frame(std::uint32_t slots = 0) : cells_(slots) {}
+  Frame(Frame&&) = default;
+  Frame& operator=(Frame&&) = default;
   /// Empties all slots and makes room for `slots` of them.
   void reset(std::uint32_t slots);
 
@@ -53,23 +56,25 @@ class Frame {
   [[nodiscard]] std::span<const double> numbers(types::Slot slot) const {
     return {cell(slot).numbers, cell(slot).count};
   }
-  [[nodiscard]] const std::vector<types::DartId>& darts(types::Slot slot) const;
+  [[nodiscard]] const std::vector<types::DartId>& darts(types::Slot slot) const {
+    return *cell(slot).darts;
+  }
 
  private:
-  friend class TreeEvaluator;
+  friend class TreeWalker;
   enum class Kind : std::uint8_t { Empty, Dart, Numbers, Darts };
   struct Cell {
     Kind kind = Kind::Empty;
     std::uint32_t count = 0;
     types::DartId dart = types::kNoDart;
-    const double* numbers = nullptr;
-    std::uint32_t collection = 0;
+    double* numbers = nullptr;
+    std::vector<types::DartId>* darts = nullptr;
   };
   [[nodiscard]] const Cell& cell(types::Slot slot) const { return cells_[types::index(slot)]; }
   [[nodiscard]] Cell& cell(types::Slot slot) { return cells_[types::index(slot)]; }
 
   std::vector<Cell> cells_;
-  std::vector<std::vector<types::DartId>> collections_;
+  std::deque<std::vector<types::DartId>> collections_;
   Arena arena_;
 };
 

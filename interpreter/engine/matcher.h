@@ -38,7 +38,8 @@ struct MatchFailure {
     DeadHook,    ///< no such dart any more
     Link,        ///< arc `index` does not hold
     NotDistinct, ///< two nodes fall on one dart
-    Label,       ///< the orbits of the nodes differ in shape
+    HookLabels,  ///< the orbits of two hooks differ in shape
+    Label,       ///< that of node `index` differs from the hook's
     Where,       ///< condition `index` (of the predicates) is false
     Missing,     ///< a condition reads an optional value where there is none
     Error        ///< a condition has no value: see `error`
@@ -66,21 +67,37 @@ class Matcher {
   [[nodiscard]] TreeEvaluator& evaluator() { return evaluator_; }
 
  private:
+  using Plan = compile::MatchPlan;
+  struct Stamp {
+    std::uint32_t epoch = 0;
+    std::uint32_t row = 0;
+  };
+
   bool fail(MatchFailure::Reason reason, std::uint32_t index = 0);
-  bool follow_links(const compile::MatchPlan& plan, Frame& frame, Match& out);
-  bool follow_row(const compile::MatchPlan& plan, DartId* row);
-  bool follow(const compile::LinkStep& step, DartId* row);
-  bool judge(const compile::Predicate& predicate, std::uint32_t index, Frame& frame);
-  bool grow_rows(const compile::MatchPlan& plan, Match& out);
-  bool grow_chain(const compile::MatchPlan& plan, Match& out);
-  bool grow_breadth_first(const compile::MatchPlan& plan, Match& out);
-  bool labels_hold(const compile::MatchPlan& plan, const Match& match);
-  bool distinct(const compile::MatchPlan& plan, const Match& match);
+  bool start(const Plan& plan, std::span<const DartId> hooks, Frame& frame, Match& out);
+  bool step(const compile::LinkStep& step, DartId* row);
+  bool follow_rows(const Plan& plan, Match& out);
+  /// Predicates from number `next` on that may be judged once `links` links were followed.
+  bool judge(const Plan& plan, std::uint32_t links, std::uint32_t& next, Frame& frame);
+  /// Rows of labels of one or two positions: a path or a cycle, walked from row 0 both ways.
+  bool grow_linear(const Plan& plan, Match& out);
+  bool walk_linear(const Plan& plan, std::uint32_t position, Match& out, bool& closed);
+  bool grow_breadth_first(const Plan& plan, Match& out);
+  /// Where the hooks of a row lead along a position, into `images_`.
+  void lead(const Plan& plan, const Match& match, std::uint32_t row, std::uint32_t position);
+  [[nodiscard]] bool images_are(const Plan& plan, const Match& match, std::uint32_t row) const;
+  std::uint32_t add_row(const Plan& plan, Match& out) const;
+  bool labels_hold(const Plan& plan, const Match& match);
+  bool distinct(const Plan& plan, const Match& match);
+  void next_epoch();
 
   const State& state_;
   MatcherKind kind_;
   TreeEvaluator evaluator_;
   MatchFailure failure_;
+  std::vector<DartId> images_;
+  std::vector<Stamp> stamps_;  // by dart
+  std::uint32_t epoch_ = 0;
 };
 
 /// The naive matcher: the same answer from the pattern's links alone, without a plan. Rows come in
@@ -89,8 +106,11 @@ bool match_naively(const State& state, const compile::MatchPlan& plan,
                    std::span<const DartId> hooks, TreeEvaluator& evaluator, Frame& frame,
                    Match& out, MatchFailure& failure);
 
-/// "`a` is 2-free, but the rule needs a 2-link there": the failure in the user's words, without
-/// place; `plan` is the plan that failed.
+/// Judges one predicate: sets its slot or tests it. False: `failure` says why.
+bool judge_predicate(const compile::Predicate& predicate, std::uint32_t index,
+                     TreeEvaluator& evaluator, Frame& frame, MatchFailure& failure);
+
+/// "there is no link `a -2- b`": the failure in the user's words; `plan` is the plan that failed.
 [[nodiscard]] std::string describe(const MatchFailure& failure, const compile::MatchPlan& plan);
 
 }  // namespace gmsim::engine

@@ -9,41 +9,19 @@
 #include <vector>
 
 #include "compile/program.h"
+#include "engine/effects.h"
 #include "engine/matcher.h"
 #include "engine/state.h"
-#include "gmap/journal.h"
-#include "gmap/orbit_index.h"
 #include "support/diagnostic.h"
 
 namespace gmsim::engine {
-
-/// How the orbits of one indexed type changed.
-struct OrbitEvents {
-  OrbitType type;
-  gmap::OrbitRepair repair;
-};
-
-/// What one or several rewrites changed and what it cost: counters for `--profile`.
-struct Effects {
-  std::vector<DartId> touched;       ///< darts with a changed link, created and removed ones too
-  std::vector<OrbitEvents> orbits;   ///< one entry for each orbit type in use that was repaired
-  std::uint64_t applications = 0;    ///< rules applied
-  std::uint64_t dropped = 0;         ///< candidates that did not match when their turn came
-  std::uint64_t created_darts = 0;
-  std::uint64_t removed_darts = 0;
-  std::uint64_t matched_rows = 0;    ///< rows of all match tables
-  std::uint64_t written_values = 0;  ///< embedding values stored
-
-  void clear();
-  gmap::OrbitRepair& repair(OrbitType type);
-  [[nodiscard]] std::uint64_t visited_darts() const;
-};
 
 /// The result of applying a rule or an operation. Unless Applied, the state is bitwise as before.
 struct RewriteOutcome {
   enum class Status : std::uint8_t {
     Applied,
-    NotMatched,  ///< the pattern does not hold there, or a condition is false: see `failure`
+    NotMatched,  ///< the pattern does not hold there, or a condition is false: see `failure`;
+                 ///< an operation also says in `error` which rule did not match where
     Failed       ///< see `error`
   };
   Status status = Status::Applied;
@@ -61,9 +39,10 @@ struct RewriteOptions {
 
 class Rewriter;
 
-/// Called for every created orbit of an embedding that marks an interaction (role Presence): who
-/// owns the scene gives the mark and the parameters by Rewriter::set_value. An error undoes the
-/// rewrite.
+/// Called for every created orbit of an embedding in use that marks an interaction (role Presence),
+/// on the new map, after the rule's own values are stored: who owns the scene gives the mark and
+/// the parameters that the rule did not (`state.store.get` is empty) by Rewriter::set_value. An
+/// error undoes the rewrite.
 using CreatedOrbitHook = std::function<std::optional<support::Diagnostic>(
     Rewriter&, EmbeddingId presence, DartId smallest)>;
 
@@ -71,9 +50,13 @@ using CreatedOrbitHook = std::function<std::optional<support::Diagnostic>(
 /// orbit repair, values. All or nothing, each application by itself or, between begin() and
 /// commit() or roll_back(), all of them together.
 class Rewriter {
+  class Implementation;
+
  public:
   explicit Rewriter(State& state, RewriteOptions options = {});
   ~Rewriter();
+  Rewriter(const Rewriter&) = delete;
+  Rewriter& operator=(const Rewriter&) = delete;
 
   /// Applies at given hook darts, one for each hook of the rule.
   RewriteOutcome apply(const compile::Rule& rule, std::span<const DartId> hooks,
@@ -102,9 +85,12 @@ class Rewriter {
   [[nodiscard]] Matcher& matcher();
 
  private:
-  friend class OperationRunner;
-  class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// "rule `separate_elements` cannot be applied at a = dart 5: there is no link `a -2- b`".
+[[nodiscard]] support::Diagnostic not_matched(const compile::Rule& rule,
+                                              std::span<const DartId> hooks,
+                                              const MatchFailure& failure);
 
 }  // namespace gmsim::engine

@@ -21,6 +21,8 @@ struct EvalFailure {
   support::Diagnostic diagnostic;
 };
 
+class TreeWalker;
+
 /// Evaluates checked expressions on a state, one at a time, straight from the tree: slow, simple,
 /// and the reference for anything faster. Collections are visited by ascending smallest dart and
 /// sums added in that order. A function argument (Let) is evaluated once, before its body.
@@ -30,6 +32,8 @@ class TreeEvaluator {
  public:
   explicit TreeEvaluator(const State& state);
   ~TreeEvaluator();
+  TreeEvaluator(const TreeEvaluator&) = delete;
+  TreeEvaluator& operator=(const TreeEvaluator&) = delete;
 
   /// A storable value, component_count(expr.type) doubles. False after a failure.
   bool evaluate(const types::Expr& expr, Frame& frame, std::span<double> out);
@@ -49,8 +53,7 @@ class TreeEvaluator {
   [[nodiscard]] EvalFailure take_failure();
 
  private:
-  class Walker;
-  std::unique_ptr<Walker> walker_;
+  std::unique_ptr<TreeWalker> walker_;
 };
 
 /// Uniform in [0, 1): a hash of the expression's seed, the scene's seed, the orbit type and the

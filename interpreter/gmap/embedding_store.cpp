@@ -60,6 +60,7 @@ EmbeddingColumn& EmbeddingStore::use(types::EmbeddingId id) {
     }
   }
   slots_[types::index(id)] = {std::move(column), &orbits};
+  ++column_count_;
   return *slots_[types::index(id)].column;
 }
 

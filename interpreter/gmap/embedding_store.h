@@ -75,6 +75,8 @@ class EmbeddingStore {
   void grow_columns(Journal* journal = nullptr);
   /// Cuts every column down to the rows of its index, after a roll-back.
   void trim_columns();
+  /// Columns there are; they are never taken away, so an equal count means the same columns.
+  [[nodiscard]] std::size_t column_count() const { return column_count_; }
   /// The embeddings in use.
   [[nodiscard]] std::vector<types::EmbeddingId> embeddings() const;
   [[nodiscard]] std::size_t memory_bytes() const;
@@ -90,6 +92,7 @@ class EmbeddingStore {
   const GMap* map_;
   std::vector<std::unique_ptr<OrbitIndex>> indices_;
   std::vector<Slot> slots_;  // by EmbeddingId
+  std::size_t column_count_ = 0;
 };
 
 }  // namespace gmsim::gmap

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include "engine/builtins.h"
+
+namespace gmsim::engine {
+
+using types::Builtin;
+
+namespace {
+
+double whole_power(double x, unsigned exponent) {
+  double result = 1.0;
+  for (double square = x; exponent != 0; exponent >>= 1u, square *= square) {
+    if ((exponent & 1u) != 0) result *= square;
+  }
+  return result;
+}
+
+}  // namespace
+
+double power(double x, double y) {
+  constexpr double kLargest = 64.0;
+  if (y == std::floor(y) && std::abs(y) <= kLargest) {
+    const double result = whole_power(x, static_cast<unsigned>(std::abs(y)));
+    return y < 0.0 ? 1.0 / result : result;
+  }
+  if (y == 0.5) return std::sqrt(x);
+  return std::pow(x, y);
+}
+
+template <>
+void run_builtin<Builtin::Abs>(const BuiltinCall& call, double* out) {
+  *out = std::abs(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Sign>(const BuiltinCall& call, double* out) {
+  const double x = *call[0];
+  *out = static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0);
+}
+template <>
+void run_builtin<Builtin::Min>(const BuiltinCall& call, double* out) {
+  *out = *call[1] < *call[0] ? *call[1] : *call[0];
+}
+template <>
+void run_builtin<Builtin::Max>(const BuiltinCall& call, double* out) {
+  *out = *call[0] < *call[1] ? *call[1] : *call[0];
+}
+template <>
+void run_builtin<Builtin::Clamp>(const BuiltinCall& call, double* out) {
+  const double x = *call[0];
+  *out = x < *call[1] ? *call[1] : x > *call[2] ? *call[2] : x;
+}
+template <>
+void run_builtin<Builtin::Floor>(const BuiltinCall& call, double* out) {
+  *out = std::floor(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Ceil>(const BuiltinCall& call, double* out) {
+  *out = std::ceil(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Mod>(const BuiltinCall& call, double* out) {
+  const double divisor = *call[1];
+  const double rest = std::fmod(*call[0], divisor);
+  *out = rest != 0.0 && (rest < 0.0) != (divisor < 0.0) ? rest + divisor : rest;
+}
+template <>
+void run_builtin<Builtin::Sqrt>(const BuiltinCall& call, double* out) {
+  *out = std::sqrt(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Exp>(const BuiltinCall& call, double* out) {
+  *out = std::exp(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Log>(const BuiltinCall& call, double* out) {
+  *out = std::log(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Sin>(const BuiltinCall& call, double* out) {
+  *out = std::sin(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Cos>(const BuiltinCall& call, double* out) {
+  *out = std::cos(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Tan>(const BuiltinCall& call, double* out) {
+  *out = std::tan(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Asin>(const BuiltinCall& call, double* out) {
+  *out = std::asin(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Acos>(const BuiltinCall& call, double* out) {
+  *out = std::acos(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Atan>(const BuiltinCall& call, double* out) {
+  *out = std::atan(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Atan2>(const BuiltinCall& call, double* out) {
+  *out = std::atan2(*call[0], *call[1]);
+}
+template <>
+void run_builtin<Builtin::Tanh>(const BuiltinCall& call, double* out) {
+  *out = std::tanh(*call[0]);
+}
+template <>
+void run_builtin<Builtin::Real>(const BuiltinCall& call, double* out) {
+  *out = *call[0];
+}
+
+}  // namespace gmsim::engine

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "engine/frame.h"
+
+#include <algorithm>
+
+namespace gmsim::engine {
+
+double* Arena::allocate(std::size_t count) {
+  constexpr std::size_t kChunk = 1024;
+  while (chunk_ < chunks_.size() && used_ + count > chunks_[chunk_].size) {
+    ++chunk_;
+    used_ = 0;
+  }
+  if (chunk_ == chunks_.size()) {
+    const std::size_t size = std::max(kChunk, count);
+    chunks_.push_back({std::make_unique<double[]>(size), size});
+  }
+  double* block = chunks_[chunk_].data.get() + used_;
+  used_ += count;
+  return block;
+}
+
+void Frame::reset(std::uint32_t slots) {
+  cells_.assign(slots, Cell{});
+  collections_.clear();
+  arena_.release({});
+}
+
+void Frame::set(types::Slot slot, types::DartId dart) {
+  Cell& target = cell(slot);
+  target.kind = Kind::Dart;
+  target.dart = dart;
+}
+
+void Frame::set(types::Slot slot, std::span<const double> numbers) {
+  Cell& target = cell(slot);
+  if (target.numbers == nullptr || target.count != numbers.size()) {
+    target.numbers = arena_.allocate(numbers.size());
+    target.count = static_cast<std::uint32_t>(numbers.size());
+  }
+  target.kind = Kind::Numbers;
+  std::copy(numbers.begin(), numbers.end(), target.numbers);
+}
+
+void Frame::set(types::Slot slot, std::vector<types::DartId> darts) {
+  Cell& target = cell(slot);
+  if (target.darts == nullptr) target.darts = &collections_.emplace_back();
+  target.kind = Kind::Darts;
+  *target.darts = std::move(darts);
+}
+
+void Frame::set(types::Slot slot, const types::Value& value) {
+  switch (value.type.kind) {
+    case types::ValueKind::Dart:
+      return set(slot, value.dart);
+    case types::ValueKind::Darts:
+      return set(slot, value.darts);
+    default:
+      return set(slot, value.data);
+  }
+}
+
+}  // namespace gmsim::engine

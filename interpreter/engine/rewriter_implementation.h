@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/rewrite.h"
+#include "engine/spread_values.h"
+#include "gmap/journal.h"
+
+namespace gmsim::engine {
+
+/// The work of Rewriter, with its work space.
+class Rewriter::Implementation {
+ public:
+  Implementation(Rewriter& self, State& state, RewriteOptions options);
+
+  /// Applies a rule and adds its effects to `outcome`, if it applies.
+  void apply(const compile::Rule& rule, std::span<const DartId> hooks, const Arguments& arguments,
+             RewriteOutcome& outcome);
+  /// Matches and evaluates a rule that changes values only; its values wait for write_at_once().
+  bool read_at_once(const compile::Rule& rule, DartId hook, const Arguments& arguments,
+                    RewriteOutcome& outcome);
+  void write_at_once(const compile::Rule& rule, RewriteOutcome& outcome);
+
+  void begin();
+  void commit();
+  void roll_back();
+  [[nodiscard]] gmap::Journal* journal() { return recording_ ? &journal_ : nullptr; }
+
+  State& state;
+  Matcher matcher;
+  CreatedOrbitHook on_created;
+
+ private:
+  using Diagnostic = std::optional<support::Diagnostic>;
+
+  bool match(const compile::Rule& rule, std::span<const DartId> hooks, const Arguments& arguments,
+             RewriteOutcome& outcome);
+  // values of the right side, on the old map
+  bool evaluate(const compile::Rule& rule, RewriteOutcome& outcome);
+  bool evaluate_at(const compile::Rule& rule, const compile::Assignment& assignment,
+                   std::uint32_t row, RewriteOutcome& outcome);
+  bool bind_row(const compile::MatchPlan& plan, std::uint32_t row, RewriteOutcome& outcome);
+  void pick_rows(const compile::Assignment& assignment);
+  // topology
+  void rewrite_links(const compile::RewritePlan& plan);
+  void add_darts(const compile::RewritePlan& plan);
+  void write_links(const compile::RewritePlan& plan);
+  void remove_darts(const compile::RewritePlan& plan);
+  void repair_orbits(const compile::RewritePlan& plan);
+  // values on the new map
+  Diagnostic store_values(const compile::Rule& rule);
+  Diagnostic announce_created();
+  [[nodiscard]] Diagnostic validate() const;
+  void fail(const compile::Rule& rule, support::Diagnostic diagnostic, RewriteOutcome& outcome);
+  void fail_evaluation(const compile::Rule& rule, RewriteOutcome& outcome);
+
+  Rewriter& self_;
+  RewriteOptions options_;
+  gmap::Journal journal_;
+  bool recording_ = false;
+  ValueSpreader spreader_;
+
+  // work space of one application
+  Frame frame_;
+  Match match_;
+  std::vector<DartId> hooks_;
+  std::vector<std::uint32_t> rows_;           // at which an assignment is evaluated
+  std::vector<std::uint8_t> row_seen_;
+  std::vector<std::uint32_t> row_queue_;
+  std::vector<AssignedValue> assigned_;
+  std::vector<std::pair<std::uint32_t, compile::Column>> assigned_cells_;  // row and column
+  std::vector<double> numbers_;
+  std::vector<DartId> touched_;
+  std::vector<ChangedOrbits> changed_;
+  Effects effects_;
+};
+
+}  // namespace gmsim::engine
