@@ -6,70 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gmap/cell_measure.h"
 #include "gmap/solid_shape.h"
 
 namespace gmsim::gmap {
 
 namespace {
 
-using Point = std::array<double, 3>;
 using Corners = std::span<const std::uint32_t>;
 
 constexpr double kNoMeasure = 1e-13;  // of extent^dimension: well above rounding
-
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// Largest distance of a corner from the first.
-double extent(const Mesh& mesh, Corners corners) {
-  double largest = 0.0;
-  for (std::uint32_t p : corners) {
-    const Point edge = mesh.points[p] - mesh.points[corners[0]];
-    largest = std::max(largest, std::sqrt(dot(edge, edge)));
-  }
-  return largest;
-}
-
-/// Half the sum of the cross products of successive corners (Newell): for a plane polygon its area.
-double polygon_area(const Mesh& mesh, Corners corners) {
-  Point sum{};
-  for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
-    sum = sum + cross(mesh.points[corners[c]] - mesh.points[corners[0]],
-                      mesh.points[corners[c + 1]] - mesh.points[corners[0]]);
-  }
-  return 0.5 * std::sqrt(dot(sum, sum));
-}
-
-/// Signed volume by the divergence theorem; facets are cones over their mean point.
-double solid_volume(const Mesh& mesh, Mesh::CellKind kind, Corners corners) {
-  const auto relative = [&](std::uint8_t c) {
-    return mesh.points[corners[c]] - mesh.points[corners[0]];
-  };
-  double six_volumes = 0.0;
-  for (const auto& facet : solid_facets(kind)) {
-    Point mean{};
-    for (std::uint8_t c : facet) mean = mean + relative(c);
-    mean = (1.0 / static_cast<double>(facet.size())) * mean;
-    for (std::size_t c = 0; c < facet.size(); ++c) {
-      six_volumes -= dot(mean, cross(relative(facet[c]), relative(facet[(c + 1) % facet.size()])));
-    }
-  }
-  return six_volumes / 6.0;
-}
-
-double measure(const Mesh& mesh, std::size_t cell) {
-  const Corners corners = mesh.corners(cell);
-  switch (mesh.dimension) {
-    case 1: return extent(mesh, corners);
-    case 2: return polygon_area(mesh, corners);
-    default: return solid_volume(mesh, mesh.kinds[cell], corners);
-  }
-}
 
 bool fits(Mesh::CellKind kind, int dimension, std::size_t corners) {
   switch (kind) {
@@ -83,7 +29,7 @@ bool fits(Mesh::CellKind kind, int dimension, std::size_t corners) {
   return false;
 }
 
-bool finite(const Point& p) {
+bool finite(const std::array<double, 3>& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
@@ -172,8 +118,8 @@ std::vector<std::uint32_t> check_cells(const Mesh& mesh, std::vector<MeshProblem
   check_points(mesh, found);
   for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
     if (!check_corners(mesh, cell, found) || !found.not_finite.empty()) continue;
-    const double size = measure(mesh, cell);
-    const double scale = std::pow(extent(mesh, mesh.corners(cell)), mesh.dimension);
+    const double size = signed_cell_measure(mesh, cell);
+    const double scale = std::pow(cell_extent(mesh, cell), mesh.dimension);
     if (std::abs(size) <= kNoMeasure * scale) {
       found.no_measure.add(cell);
     } else if (size < 0.0) {
