@@ -63,8 +63,7 @@ class ApplyJob {
       if (!apply_once()) return session_.finish();
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     summarise();
-    if (!session_.options.output.empty())
-      write_mesh(*state_, point_of_vertex_, session_.options.output, session_.diagnostics);
+    if (!session_.options.output.empty()) write_result();
     return session_.finish();
   }
 
@@ -81,7 +80,7 @@ class ApplyJob {
     state_->use_data();
     scene::set_positions(*state_, *mesh, built.dart_point);
     scene::set_corner_masses(*state_, *mesh, built.dart_cell, session_.options.density);
-    point_of_vertex_ = PointNumbers(*state_, built.dart_point, mesh->points.size());
+    points_.emplace(vertices(), built.point_dart);
     for (const std::string& name : scene::missing_embeddings(*state_))
       session_.diagnostics.report(
           {.kind = DiagnosticKind::MissingValue,
@@ -194,6 +193,15 @@ class ApplyJob {
     return {};
   }
 
+  const gmap::OrbitIndex& vertices() {
+    return state_->store.use_index(OrbitType::cell(0, program_.dimension));
+  }
+
+  void write_result() {
+    points_->update(vertices());
+    write_mesh(*state_, *points_, session_.options.output, session_.diagnostics);
+  }
+
   void summarise() {
     session_.out << fmt::format("{}: applied {} time{}", session_.options.rule, applied_,
                                 applied_ == 1 ? "" : "s");
@@ -210,7 +218,7 @@ class ApplyJob {
   compile::Program program_;
   std::unique_ptr<State> state_;
   std::unique_ptr<engine::Rewriter> rewriter_;
-  PointNumbers point_of_vertex_;
+  std::optional<io::PointNumbering> points_;
   std::optional<NamedItem> item_;
   engine::Arguments arguments_;
   CheckedExpression where_;
