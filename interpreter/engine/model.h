@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/state.h"
+#include "support/span.h"
+#include "types/expr.h"
+#include "types/value.h"
+
+/// What is simulated: which interactions act, with which parameters, and what moves by decree.
+/// Plain data, made by a scene and read by Simulation.
+namespace gmsim::engine {
+
+/// An expression that the engine evaluates at a dart, with its own frame.
+struct DartExpression {
+  types::ExprPtr value;
+  Slot dart{};
+  std::uint32_t frame_size = 1;
+};
+
+/// How a parameter of an interaction gets its value (language, parameters).
+struct ParameterBinding {
+  enum class Kind : std::uint8_t {
+    Uniform,  ///< the same everywhere and always: folded into the program, no column
+    Stored,   ///< one value per orbit in the column of `embedding`, set when the match first exists
+    OfTime    ///< reads `time`: evaluated at every stage
+  };
+  EmbeddingId embedding{};
+  Kind kind = Kind::Uniform;
+  types::Value uniform;        ///< Uniform; SI
+  DartExpression expression;   ///< OfTime; Stored: for orbits that a rule creates later
+};
+
+/// An interaction at work. The orbits that carry it are those with its presence mark.
+struct ActiveInteraction {
+  std::uint32_t interaction = 0;  ///< index into Program::interactions
+  std::vector<ParameterBinding> parameters;
+  support::Span span;             ///< where the scene asks for it
+};
+
+/// Vertices whose motion is prescribed: `position` as a function of time, or `velocity`, which is
+/// integrated from where they are.
+struct PrescribedMotion {
+  std::vector<DartId> vertices;  ///< one dart of each
+  bool gives_position = false;
+  DartExpression expression;     ///< vec3, m or m/s
+  support::Span span;
+};
+
+/// Vertices with the embedding `fixed` do not move at all.
+struct Model {
+  std::vector<ActiveInteraction> interactions;
+  std::vector<PrescribedMotion> motions;
+};
+
+/// What happens when the step is above the stability limit.
+enum class OnUnstable : std::uint8_t { Error, Warn, Substep };
+
+struct IntegratorSettings {
+  std::string method = "rk4";   ///< a row of integrators.def
+  double dt = 0;                ///< s; 0: automatic, from the stability bound
+  OnUnstable on_unstable = OnUnstable::Error;
+  double rtol = 1e-6;           ///< adaptive methods
+  double atol_position = 0;     ///< m; 0: 1e-6 of the shortest edge
+  double atol_velocity = 0;     ///< m/s; 0: from atol_position and the first step
+  double dt_min = 0;            ///< s
+  double dt_max = 0;            ///< s; 0: no limit
+};
+
+}  // namespace gmsim::engine
