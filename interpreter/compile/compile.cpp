@@ -119,6 +119,10 @@ Program compile_program(const check::RuleLibrary& library) {
   }
   for (const auto& item : library.interactions) program.interactions.push_back(rooted(item));
   for (const auto& item : library.criteria) program.criteria.push_back(rooted(item, library));
+  for (const auto& item : library.interactions) {
+    program.interaction_bodies.push_back(compile_body(item));
+  }
+  for (const auto& item : library.criteria) program.criterion_bodies.push_back(compile_body(item));
   return program;
 }
 

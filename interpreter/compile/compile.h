@@ -24,6 +24,10 @@ void add_predicates(MatchPlan& plan, const std::vector<check::Parameter>& parame
                                           const gmap::EmbeddingSchema& schema);
 [[nodiscard]] Rule compile_rule(const check::Rule& rule, const gmap::EmbeddingSchema& schema);
 
+/// What an interaction or a criterion computes.
+[[nodiscard]] InteractionBody compile_body(const check::Interaction& interaction);
+[[nodiscard]] CriterionBody compile_body(const check::Criterion& criterion);
+
 /// `--dump plan`: every item, or those called `only`.
 void print_program(const Program& program, std::ostream& out, std::string_view only = {});
 

@@ -39,7 +39,7 @@ enum class Op : std::uint8_t {
 /// Where an input comes from.
 struct Input {
   enum class Source : std::uint8_t {
-    Embedding,  ///< value of `embedding` at the dart of role `role`
+    Embedding,  ///< value of `embedding` at the orbit of role `role`
     MatchValue, ///< number `role` of the match's own list: what a match knows when it is made
     Time,       ///< s
     Dt,
@@ -47,13 +47,18 @@ struct Input {
   };
   Source source = Source::Embedding;
   EmbeddingId embedding{};
-  std::uint32_t role = 0;  ///< position in the match's list of darts
+  std::uint32_t role = 0;    ///< position in the match's list of orbits
+  std::uint32_t offset = 0;  ///< of an embedding: first double of its value that is meant
   bool operator==(const Input&) const = default;
+};
+
+struct InputHash {
+  std::size_t operator()(const Input& input) const;
 };
 
 struct Node {
   Op op = Op::Constant;
-  ValueKind type = ValueKind::Real;  ///< Bool (a mask), Real, Vec3, Mat3, Sym3
+  ValueKind type = ValueKind::Real;  ///< Bool (a mask, never an input), Real, Vec3, Mat3, Sym3
   std::array<NodeId, 3> operands = {kNone, kNone, kNone};
   double constant = 0;      ///< Constant: the number, every entry of a zero vector or matrix, 0/1 of a mask
   std::uint32_t aux = 0;    ///< Input: number of the input; Component: which one
@@ -87,6 +92,7 @@ class Graph {
 
   std::vector<Node> nodes_;
   std::vector<Input> inputs_;
+  std::unordered_map<Input, std::uint32_t, InputHash> input_numbers_;
   std::unordered_map<std::size_t, std::vector<NodeId>> table_;
 };
 

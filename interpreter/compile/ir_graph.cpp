@@ -63,6 +63,12 @@ bool same(const Node& x, const Node& y) {
 std::string_view name_of(Op op) { return kOps[static_cast<std::size_t>(op)].name; }
 int operand_count(Op op) { return kOps[static_cast<std::size_t>(op)].operands; }
 
+std::size_t InputHash::operator()(const Input& input) const {
+  std::size_t hash = static_cast<std::size_t>(input.source);
+  hash = mix(hash, types::index(input.embedding));
+  return mix(mix(hash, input.role), input.offset);
+}
+
 NodeId Graph::intern(const Node& node) {
   std::vector<NodeId>& bucket = table_[hash_of(node)];
   for (const NodeId known : bucket)
@@ -84,10 +90,10 @@ NodeId Graph::mask(bool value) {
 NodeId Graph::zero(ValueKind type) { return intern({.op = Op::Constant, .type = type}); }
 
 NodeId Graph::input(const Input& input, ValueKind type, Span span) {
-  std::uint32_t number = 0;
-  while (number < inputs_.size() && !(inputs_[number] == input)) ++number;
-  if (number == inputs_.size()) inputs_.push_back(input);
-  return intern({.op = Op::Input, .type = type, .aux = number, .span = span});
+  const auto [known, added] =
+      input_numbers_.try_emplace(input, static_cast<std::uint32_t>(inputs_.size()));
+  if (added) inputs_.push_back(input);
+  return intern({.op = Op::Input, .type = type, .aux = known->second, .span = span});
 }
 
 bool Graph::is_zero(NodeId id) const {

@@ -16,8 +16,11 @@ void mark(const Graph& graph, NodeId id, std::vector<bool>& used) {
 
 std::string input_text(const Input& input) {
   switch (input.source) {
-    case Input::Source::Embedding:
-      return fmt::format("embedding {} of role {}", types::index(input.embedding), input.role);
+    case Input::Source::Embedding: {
+      const std::string part = input.offset == 0 ? "" : fmt::format("[{}]", input.offset);
+      return fmt::format("embedding {}{} of role {}", types::index(input.embedding), part,
+                         input.role);
+    }
     case Input::Source::MatchValue: return fmt::format("match value {}", input.role);
     case Input::Source::Time: return "time";
     case Input::Source::Dt: return "dt";

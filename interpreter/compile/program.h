@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "compile/interaction_body.h"
 #include "compile/match_plan.h"
 #include "compile/rewrite_plan.h"
 #include "gmap/embedding_schema.h"
@@ -95,6 +96,8 @@ struct Program {
   std::vector<Operation> operations;
   std::vector<RootedPattern> interactions;
   std::vector<RootedPattern> criteria;
+  std::vector<InteractionBody> interaction_bodies;  ///< parallel to `interactions`
+  std::vector<CriterionBody> criterion_bodies;      ///< parallel to `criteria`
 
   [[nodiscard]] const Rule* find_rule(std::string_view name) const;
   [[nodiscard]] const Operation* find_operation(std::string_view name) const;
