@@ -5,6 +5,9 @@
 %option prefix="gmsim_rule_" extra-type="gmsim::syntax::Scanner*"
 
 %top{
+#include <algorithm>
+#include <string>
+
 #include "support/check.h"
 #include "syntax/scanner.h"
 }
@@ -125,9 +128,14 @@ WORD      [A-Za-z_][A-Za-z0-9_]*
 namespace gmsim::syntax {
 
 void Scanner::run(std::string_view text) {
+  // At each zero byte flex goes back to the beginning of the token, which takes quadratic time. No
+  // pattern tells zero from another control character, and messages are made from the text itself.
+  std::string buffer(text);
+  std::replace(buffer.begin(), buffer.end(), '\0', '\1');
+  buffer.append(2, YY_END_OF_BUFFER_CHAR);
   yyscan_t state = nullptr;
   yylex_init_extra(this, &state);
-  yy_scan_bytes(text.data(), static_cast<int>(text.size()), state);
+  yy_scan_buffer(buffer.data(), buffer.size(), state);
   scan_all(state);
   yylex_destroy(state);
 }

@@ -19,7 +19,7 @@ int read_int(ParseContext& context, std::string_view text, Span span) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && end == text.data() + text.size()) return value;
   context.report({.kind = DiagnosticKind::BadNumber,
-                  .message = fmt::format("`{}` is too large here", text),
+                  .message = fmt::format("`{}` is too large here", shortened(text)),
                   .place = span});
   return 0;
 }
@@ -176,8 +176,8 @@ Statement make_force(Span span, std::vector<Name> targets, OrbitExpr orbit, Expr
 }
 
 Statement make_force(Span span, Name target, ExprPtr collection, OrbitExpr orbit, ExprPtr value) {
-  return {span, ForceStatement{append({}, std::move(target)), std::move(collection),
-                               std::move(orbit), std::move(value)}};
+  return {span, ForceStatement{list_of(std::move(target)), std::move(collection), std::move(orbit),
+                               std::move(value)}};
 }
 
 DimensionStatement make_dimension_statement(ParseContext& context, Span span,
@@ -193,7 +193,7 @@ DimensionStatement make_dimension_statement(ParseContext& context, Span span,
 // ---- patterns and orbits ------------------------------------------------------------------------
 
 Chain begin_chain(NodeMention node) {
-  return {append({}, std::move(node)), {}};
+  return {list_of(std::move(node)), {}};
 }
 
 Chain extend_chain(Chain chain, Link link, NodeMention node) {
@@ -206,7 +206,7 @@ std::vector<LinkDimension> add_step(ParseContext& context, std::vector<LinkDimen
                                     const std::string& text, Span span) {
   if (text.find_first_not_of("0123456789.") != std::string::npos) {
     context.report({.kind = DiagnosticKind::BadNumber,
-                    .message = fmt::format("`{}` is no path of links", text),
+                    .message = fmt::format("`{}` is no path of links", shortened(text)),
                     .place = span});
     return path;
   }
@@ -295,10 +295,10 @@ TypeExpr finish_type(ParseContext& context, Span span, TypeExpr type,
 
 UnitExpr make_plain_unit(ParseContext& context, Span span, const std::string& text) {
   if (text != "1")
-    context.report(
-        {.kind = DiagnosticKind::Syntax,
-         .message = fmt::format("`{}` is no unit; plain numbers have the unit `[1]`", text),
-         .place = span});
+    context.report({.kind = DiagnosticKind::Syntax,
+                    .message = fmt::format("`{}` is no unit; plain numbers have the unit `[1]`",
+                                           shortened(text)),
+                    .place = span});
   return {{}, span};
 }
 

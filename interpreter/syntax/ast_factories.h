@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "syntax/ast.h"
+#include "syntax/boxed.h"
 
 /// What the actions of grammar/rule_parser.yy call: one function for each shape of node. Those
 /// that take the ParseContext can report errors, or find the `///` lines above an item.
@@ -35,7 +36,22 @@ struct Clauses {
 };
 
 template <class T>
+std::vector<T> list_of(T element) {
+  std::vector<T> list;
+  list.push_back(std::move(element));
+  return list;
+}
+template <class T>
+std::vector<T> list_of(Boxed<T> element) {
+  return list_of<T>(T(std::move(element)));
+}
+template <class T>
 std::vector<T> append(std::vector<T> list, T element) {
+  list.push_back(std::move(element));
+  return list;
+}
+template <class T>
+std::vector<T> append(std::vector<T> list, Boxed<T> element) {
   list.push_back(std::move(element));
   return list;
 }
@@ -129,8 +145,7 @@ UnitExpr reject_unit(ParseContext& context, Span span, std::vector<UnitFactor> a
                      std::vector<UnitFactor> below, std::vector<UnitFactor> tail);
 inline UnitExpr reject_unit(ParseContext& context, Span span, std::vector<UnitFactor> above,
                             UnitFactor below, std::vector<UnitFactor> tail) {
-  return reject_unit(context, span, std::move(above), append({}, std::move(below)),
-                     std::move(tail));
+  return reject_unit(context, span, std::move(above), list_of(std::move(below)), std::move(tail));
 }
 UnitFactor raise_unit(ParseContext& context, Name name, int sign, const std::string& numerator,
                       Span numerator_span, const std::string& denominator = "1",

@@ -50,10 +50,10 @@ ExprPtr make_number(ParseContext& context, Span span, std::string text, bool is_
   const char* begin = number.text.data();
   const auto [end, error] = std::from_chars(begin, begin + number.text.size(), number.value);
   if (error == std::errc::result_out_of_range)
-    context.report(
-        {.kind = DiagnosticKind::BadNumber,
-         .message = fmt::format("`{}` is outside of what a number can hold", number.text),
-         .place = text_span});
+    context.report({.kind = DiagnosticKind::BadNumber,
+                    .message = fmt::format("`{}` is outside of what a number can hold",
+                                           shortened(number.text)),
+                    .place = text_span});
   return make_expr(context, span, std::move(number));
 }
 
@@ -134,7 +134,7 @@ ExprPtr make_if_expr(ParseContext& context, Span span, ExprPtr condition, ExprPt
 
 ExprPtr make_tuple(ParseContext& context, Span span, ExprPtr first, std::vector<ExprPtr> rest) {
   TupleExpr tuple;
-  tuple.elements = append_all(append({}, std::move(first)), std::move(rest));
+  tuple.elements = append_all(list_of(std::move(first)), std::move(rest));
   const auto parts = highest(tuple.elements);
   return make_expr(context, span, std::move(tuple), parts);
 }

@@ -55,6 +55,12 @@ bool is_reserved(RuleParser::token_kind_type kind) {
   return kind >= token::TOP && kind <= token::IMPORT;
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  if (text.size() <= kLongest) return std::string(text);
+  return std::string(text.substr(0, kLongest)) + "…";
+}
+
 Scanner::Scanner(support::FileId file, std::string_view text, Report report)
     : file_(file), text_(text), report_(std::move(report)) {
   if (text_.starts_with(kByteOrderMark)) advance(static_cast<int>(kByteOrderMark.size()));
@@ -106,7 +112,7 @@ void Scanner::open_comment() {
 
 void Scanner::bad_number() {
   report(DiagnosticKind::BadNumber, place(),
-         fmt::format("`{}` is neither a number nor a name", matched()));
+         fmt::format("`{}` is neither a number nor a name", shortened(matched())));
   add(token::REAL);
 }
 

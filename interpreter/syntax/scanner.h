@@ -26,6 +26,9 @@ struct Token {
 [[nodiscard]] bool is_word(RuleParser::token_kind_type kind);
 [[nodiscard]] bool is_reserved(RuleParser::token_kind_type kind);
 
+/// A piece of source text for a message: a very long one only in its beginning.
+[[nodiscard]] std::string shortened(std::string_view text);
+
 /// Cuts a text into tokens, ended by END. The patterns are those of grammar/rule_lexer.ll, whose
 /// actions call the functions below with the place of what they matched already known.
 class Scanner {

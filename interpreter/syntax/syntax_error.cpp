@@ -182,7 +182,7 @@ class Describer {
                        : is_reserved(at.kind)                                ? "reserved word "
                        : at.kind == token::INTEGER || at.kind == token::REAL ? "number "
                                                                              : "";
-    return fmt::format("{}`{}`", what, text(at));
+    return fmt::format("{}`{}`", what, shortened(text(at)));
   }
 
   [[nodiscard]] Diagnostic unexpected(const Token& at,
