@@ -106,6 +106,9 @@ class Graph {
 [[nodiscard]] NodeId directional(Graph& graph, NodeId y, std::span<const NodeId> inputs,
                                  std::span<const NodeId> seeds);
 
+/// Which nodes some root depends on, roots included; kNone among the roots is passed over.
+[[nodiscard]] std::vector<bool> reachable(const Graph& graph, std::span<const NodeId> roots);
+
 /// "n12 = dot n4 n7" a line, reachable from `roots`.
 [[nodiscard]] std::string to_string(const Graph& graph, std::span<const NodeId> roots);
 

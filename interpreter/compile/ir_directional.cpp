@@ -30,7 +30,7 @@ class Forward {
   NodeId derive(NodeId y) {
     const Node node = graph_[y];
     Builder make(graph_, node.span);
-    if (operand_count(node.op) == 0 || constant(node.op)) return make.zero(node.type);
+    if (operand_count(node.op) == 0 || is_barrier(node.op)) return make.zero(node.type);
     if (scalar_derivative(graph_, make, y, 0)) return derive_scalar(y, node, make);
     if (node.op == Op::Select)
       return make.select(node.operands[0], tangent(node.operands[1]), tangent(node.operands[2]));
@@ -38,15 +38,6 @@ class Forward {
     const NodeId db = operand_count(node.op) > 1 ? tangent(node.operands[1]) : kNone;
     const NodeId dc = operand_count(node.op) > 2 ? tangent(node.operands[2]) : kNone;
     return derive_tensor(y, node, da, db, dc, make);
-  }
-
-  static bool constant(Op op) {
-    switch (op) {
-      case Op::Frozen: case Op::AsReal: case Op::MaxEigenvector: case Op::MinEigenvector:
-      case Op::Less: case Op::LessEqual: case Op::Equal: case Op::And: case Op::Or: case Op::Not:
-        return true;
-      default: return false;
-    }
   }
 
   NodeId derive_scalar(NodeId y, const Node& node, Builder& make) {

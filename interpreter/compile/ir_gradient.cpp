@@ -14,13 +14,25 @@ namespace {
 /// for a symmetric matrix S it is the symmetric G with dy = G : dS.
 class Reverse {
  public:
-  Reverse(Graph& graph, NodeId y) : graph_(graph), adjoints_(index(y) + 1, kNone) {
-    adjoints_[index(y)] = graph.constant(1);
+  Reverse(Graph& graph, NodeId y, std::span<const NodeId> inputs)
+      : graph_(graph), adjoints_(index(y) + 1, kNone), depends_(index(y) + 1, false) {
+    for (const NodeId input : inputs)
+      if (index(input) <= index(y)) depends_[index(input)] = true;
+    for (std::uint32_t i = 0; i <= index(y); ++i) {
+      const Node& node = graph_[NodeId{i}];
+      if (is_barrier(node.op)) continue;
+      for (const NodeId operand : node.operands)
+        if (operand != kNone && depends_[index(operand)]) depends_[i] = true;
+    }
+    if (depends_[index(y)]) adjoints_[index(y)] = graph.constant(1);
   }
 
   void run() {
-    for (std::uint32_t i = static_cast<std::uint32_t>(adjoints_.size()); i-- > 0;)
-      if (adjoints_[i] != kNone && !graph_.is_zero(adjoints_[i])) visit(NodeId{i}, adjoints_[i]);
+    for (auto i = static_cast<std::uint32_t>(adjoints_.size()); i-- > 0;) {
+      const bool leaf = operand_count(graph_[NodeId{i}].op) == 0;
+      if (!leaf && adjoints_[i] != kNone && !graph_.is_zero(adjoints_[i]))
+        visit(NodeId{i}, adjoints_[i]);
+    }
   }
 
   NodeId of(NodeId input) {
@@ -30,6 +42,7 @@ class Reverse {
 
  private:
   void pass(NodeId operand, NodeId part) {
+    if (!depends_[index(operand)]) return;
     NodeId& adjoint = adjoints_[index(operand)];
     adjoint = adjoint == kNone ? part : graph_.make(Op::Add, adjoint, part);
   }
@@ -45,11 +58,12 @@ class Reverse {
 
   bool visit_scalars(NodeId y, const Node& node, NodeId g, Builder& make) {
     for (int k = 0; k < operand_count(node.op); ++k) {
+      if (node.type == ValueKind::Real && !depends_[index(node.operands[k])]) continue;
       const auto slope = scalar_derivative(graph_, make, y, k);
       if (!slope) return false;
       pass(node.operands[k], make.mul(g, *slope));
     }
-    return operand_count(node.op) > 0;
+    return true;
   }
 
   bool visit_linear(NodeId y, const Node& node, NodeId g, Builder& make) {
@@ -73,10 +87,6 @@ class Reverse {
         for (std::uint32_t k = 0; k < 3; ++k) pass(node.operands[k], make.component(g, k));
         return true;
       case Op::Component: pass(a, single_entry(a, node.aux, g, make)); return true;
-      case Op::Constant: case Op::Input: case Op::Frozen: case Op::AsReal: return true;
-      case Op::MaxEigenvector: case Op::MinEigenvector: return true;
-      case Op::Less: case Op::LessEqual: case Op::Equal: case Op::And: case Op::Or: case Op::Not:
-        return true;
       default: return false;
     }
   }
@@ -157,12 +167,13 @@ class Reverse {
 
   Graph& graph_;
   std::vector<NodeId> adjoints_;
+  std::vector<bool> depends_;  // on one of the inputs; the others need no adjoint
 };
 
 }  // namespace
 
 std::vector<NodeId> gradient(Graph& graph, NodeId y, std::span<const NodeId> inputs) {
-  Reverse reverse(graph, y);
+  Reverse reverse(graph, y, inputs);
   reverse.run();
   std::vector<NodeId> result;
   for (const NodeId input : inputs) result.push_back(reverse.of(input));

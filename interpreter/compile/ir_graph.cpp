@@ -114,4 +114,16 @@ NodeId Graph::make_plain(Op op, NodeId a, NodeId b, NodeId c, std::uint32_t aux,
   return intern(node);
 }
 
+std::vector<bool> reachable(const Graph& graph, std::span<const NodeId> roots) {
+  std::vector<bool> used(graph.size(), false);
+  for (const NodeId root : roots)
+    if (root != kNone) used[index(root)] = true;
+  for (std::size_t i = graph.size(); i-- > 0;) {  // operands stand before their users
+    if (!used[i]) continue;
+    for (const NodeId operand : graph[NodeId{static_cast<std::uint32_t>(i)}].operands)
+      if (operand != kNone) used[index(operand)] = true;
+  }
+  return used;
+}
+
 }  // namespace gmsim::compile::ir

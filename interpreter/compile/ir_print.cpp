@@ -8,12 +8,6 @@
 namespace gmsim::compile::ir {
 namespace {
 
-void mark(const Graph& graph, NodeId id, std::vector<bool>& used) {
-  if (id == kNone || used[index(id)]) return;
-  used[index(id)] = true;
-  for (const NodeId operand : graph[id].operands) mark(graph, operand, used);
-}
-
 std::string input_text(const Input& input) {
   switch (input.source) {
     case Input::Source::Embedding: {
@@ -41,8 +35,7 @@ std::string node_text(const Graph& graph, const Node& node) {
 }  // namespace
 
 std::string to_string(const Graph& graph, std::span<const NodeId> roots) {
-  std::vector<bool> used(graph.size(), false);
-  for (const NodeId root : roots) mark(graph, root, used);
+  const std::vector<bool> used = reachable(graph, roots);
   std::string text;
   for (std::uint32_t i = 0; i < graph.size(); ++i)
     if (used[i])

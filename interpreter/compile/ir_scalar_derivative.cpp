@@ -19,6 +19,15 @@ NodeId angle_derivative(Builder& make, NodeId a, NodeId b, int operand) {
 
 }  // namespace
 
+bool is_barrier(Op op) {
+  switch (op) {
+    case Op::Frozen: case Op::AsReal: case Op::MaxEigenvector: case Op::MinEigenvector:
+    case Op::Less: case Op::LessEqual: case Op::Equal: case Op::And: case Op::Or: case Op::Not:
+      return true;
+    default: return false;
+  }
+}
+
 std::optional<NodeId> scalar_derivative(const Graph& graph, Builder& make, NodeId y, int operand) {
   const Node node = graph[y];
   const NodeId a = node.operands[0], b = node.operands[1];

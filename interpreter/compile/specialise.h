@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "compile/interaction_body.h"
@@ -38,10 +39,10 @@ struct Draw {
 
 /// What is computed of an item.
 struct Wanted {
-  const ExprPtr* energy = nullptr;                 ///< also differentiated when `forces` is given
-  const std::vector<BodyForce>* forces = nullptr;
-  bool energy_value = false;                       ///< keep the energy itself as a root
-  std::vector<ExprPtr> values;                     ///< a criterion's value, results, a field …
+  ExprPtr energy = nullptr;                        ///< a root of its own when `energy_value`
+  bool energy_value = false;
+  const std::vector<BodyForce>* forces = nullptr;  ///< the energy is differentiated for them
+  std::vector<ExprPtr> values = {};                ///< a criterion's value, results, a field …
 };
 [[nodiscard]] Wanted wanted_forces(const InteractionBody& body, bool energy_value);
 /// The value of a criterion, then its results in order.
@@ -105,7 +106,6 @@ struct World {
 };
 
 class SymbolicWalker;
-class WalkProgram;
 
 /// Specialises one item. Everything given must outlive it; it may be used again after the map has
 /// changed. Not for several threads at once.
@@ -124,8 +124,11 @@ class Specialiser {
   [[nodiscard]] const SpecialiseFailure& failure() const { return failure_; }
 
  private:
+  friend class ShapeSet;
+  bool run(std::span<const DartId> nodes, MatchRoles& out, Shape* shape);
+
+  Wanted wanted_;
   std::unique_ptr<SymbolicWalker> walker_;
-  const World& world_;
   SpecialiseFailure failure_;
 };
 
@@ -148,9 +151,13 @@ class ShapeSet {
   struct KeyHash {
     std::size_t operator()(const std::vector<std::uint32_t>& key) const;
   };
+  struct FastWay;  // a walk program and the shape it leads to
+
+  const World& world_;
   Specialiser specialiser_;
   std::vector<std::unique_ptr<Shape>> shapes_;
-  std::unique_ptr<WalkProgram> fast_;
+  std::unordered_map<std::vector<std::uint32_t>, std::uint32_t, KeyHash> by_key_;
+  std::vector<FastWay> fast_;
 };
 
 }  // namespace gmsim::compile

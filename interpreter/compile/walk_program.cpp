@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "compile/walk_program.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gmsim::compile {
+
+bool WalkProgram::run(const World& world, std::span<const DartId> node_darts, MatchRoles& out) {
+  darts_.assign(node_darts.begin(), node_darts.end());
+  for (const Step& step : steps)
+    darts_.push_back(world.map.alpha(step.dimension, darts_[step.from]));
+  for (const Test& test : tests)
+    if ((darts_[test.a] == darts_[test.b]) != test.same) return false;
+  out.roles.clear();
+  for (const Visit& visit : visits) {
+    const Role role{visit.type, darts_[visit.walk], visit.index->row(darts_[visit.walk])};
+    if (visit.role < out.roles.size()) {
+      if (out.roles[visit.role].row != role.row) return false;
+      continue;
+    }
+    for (const Role& earlier : out.roles)
+      if (earlier.row == role.row && earlier.type == role.type) return false;
+    out.roles.push_back(role);
+  }
+  for (const Presence& presence : presences)
+    if (!world.store.column(presence.embedding).has(out.roles[presence.role].row)) return false;
+  out.targets.clear();
+  for (const std::uint32_t walk : targets) out.targets.push_back(darts_[walk]);
+  return true;
+}
+
+void WalkTrace::start(std::uint32_t nodes) {
+  program_ = {};
+  program_.nodes = nodes;
+  straight_ = true;
+}
+
+bool WalkTrace::known(std::uint32_t walk) {
+  straight_ = straight_ && walk != kNoWalk;
+  return straight_;
+}
+
+std::uint32_t WalkTrace::follow(std::uint32_t from, int dimension) {
+  if (!straight_ || from == kNoWalk) return kNoWalk;
+  auto& steps = program_.steps;
+  const auto step = std::find_if(steps.begin(), steps.end(), [&](const WalkProgram::Step& s) {
+    return s.from == from && s.dimension == dimension;
+  });
+  const auto number = static_cast<std::uint32_t>(step - steps.begin());
+  if (step == steps.end()) steps.push_back({from, static_cast<std::uint8_t>(dimension)});
+  return program_.nodes + number;
+}
+
+void WalkTrace::test(std::uint32_t a, std::uint32_t b, bool same) {
+  if (known(a) && known(b)) program_.tests.push_back({a, b, same});
+}
+
+void WalkTrace::visit(OrbitType type, std::uint32_t walk, std::uint32_t role,
+                      const gmap::OrbitIndex* index) {
+  straight_ = straight_ && index != nullptr;
+  if (!known(walk)) return;
+  const bool seen = std::any_of(program_.visits.begin(), program_.visits.end(),
+                                [&](const WalkProgram::Visit& visit) {
+                                  return visit.type == type && visit.walk == walk;
+                                });
+  if (!seen) program_.visits.push_back({type, walk, role, index});
+}
+
+void WalkTrace::require(EmbeddingId embedding, std::uint32_t role) {
+  if (!straight_) return;
+  const bool seen = std::any_of(program_.presences.begin(), program_.presences.end(),
+                                [&](const WalkProgram::Presence& presence) {
+                                  return presence.embedding == embedding && presence.role == role;
+                                });
+  if (!seen) program_.presences.push_back({embedding, role});
+}
+
+void WalkTrace::target(std::uint32_t walk) {
+  if (known(walk)) program_.targets.push_back(walk);
+}
+
+std::optional<WalkProgram> WalkTrace::take() {
+  if (!straight_) return std::nullopt;
+  return std::move(program_);
+}
+
+}  // namespace gmsim::compile
