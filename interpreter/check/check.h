@@ -24,6 +24,8 @@ struct LibraryOptions {
   bool with_stdlib = true;
 };
 
+struct Checking;
+
 /// The checked rules of a run, for every dimension of the map. An item that makes no sense in a
 /// dimension (it names `volume`, or says `dimension 3;`) is absent there.
 class CheckedRules {
@@ -39,6 +41,9 @@ class CheckedRules {
   std::array<std::unique_ptr<RuleLibrary>, 3> libraries_;
   std::vector<syntax::RuleFile> files_;
   std::vector<std::pair<std::string, std::array<std::string, 3>>> absent_;
+  /// Names and functions, for expressions that are checked later. It refers to the trees in `files_`,
+  /// so the rules can be moved but not copied.
+  std::shared_ptr<Checking> checking_;
 };
 
 /// Parses and checks the library and the given files with what they import. Several errors a run;
@@ -67,6 +72,18 @@ struct CheckedExpression {
                                                  const types::ValueType& wanted,
                                                  support::SourceMap& sources,
                                                  support::Diagnostics& diagnostics);
+
+/// What an expression outside of rule files is for, when its unit matters.
+struct WantedValue {
+  types::ValueType type;                       ///< Error kind: any type
+  types::MaybeUnit unit = std::nullopt;        ///< must agree when both are known
+  double unit_scale = 1.0;                     ///< bare numbers are multiples of this many SI units
+};
+[[nodiscard]] CheckedExpression check_value_expression(const CheckedRules& rules, int dimension,
+                                                       support::FileId text,
+                                                       const WantedValue& wanted,
+                                                       support::SourceMap& sources,
+                                                       support::Diagnostics& diagnostics);
 
 /// `--dump checked`.
 void dump_checked(const RuleLibrary& library, support::FileId file, std::ostream& out);

@@ -70,6 +70,7 @@ struct Parameter {
   /// Of an interaction's parameter: where it is stored.
   std::optional<EmbeddingId> embedding = std::nullopt;
   Span span;
+  double unit_scale = 1.0;  ///< SI units per declared unit: a bare number given for it is in that
 };
 /// A `let` (slot = value) or a `where` (condition), in the order of the file.
 struct Step {

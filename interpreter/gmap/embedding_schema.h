@@ -44,6 +44,7 @@ struct EmbeddingDecl {
   std::uint32_t frame_size = 1;              ///< slots that weight and derivation need
   std::string doc;
   support::Span span;
+  double unit_scale = 1.0;  ///< SI units per declared unit ([mm]: 1e-3); values are held in SI
 };
 
 /// The named values of one dimension of the map; EmbeddingId is the position.
