@@ -90,7 +90,7 @@ WORD      [A-Za-z_][A-Za-z0-9_]*
 {DIGITS}{EXPONENT}                             { yyextra->add(Token::REAL); }
 {DIGITS}("."{DIGITS})?{WORD}                   { yyextra->bad_number(); }
 
-\"([^"\\\n]|\\["\\])*\"   { yyextra->add(Token::STRING); }
+\"([^"\\\n]|\\["\\])*\"   { yyextra->string(); }
 \"([^"\\\n]|\\.)*\"       { yyextra->bad_string(); }
 \"([^"\\\n]|\\.)*         { yyextra->open_string(); }
 

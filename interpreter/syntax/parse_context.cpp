@@ -65,9 +65,10 @@ ItemHead ParseContext::begin(ItemKind kind, ItemHead head) {
 }
 
 void ParseContext::accept(Item item) {
-  // Errors of the parser come in order of place, so the last one tells.
+  // Errors of the parser come in order of place, so the last one tells. One at the first word is
+  // about what this item was found in.
   const bool parser_failed =
-      error_places_.size() > scan_error_count_ && error_places_.back() >= item.span.begin;
+      error_places_.size() > scan_error_count_ && error_places_.back() > item.span.begin;
   if (parser_failed || has_scan_error(item.span.begin, item.span.end)) return;
   items_.push_back(std::move(item));
 }

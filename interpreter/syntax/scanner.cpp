@@ -116,6 +116,11 @@ void Scanner::bad_number() {
   add(token::REAL);
 }
 
+void Scanner::string() {
+  check_bytes();
+  add(token::STRING);
+}
+
 void Scanner::bad_string() {
   if (check_bytes())
     report(DiagnosticKind::Syntax, place(), "unknown escape in a string",

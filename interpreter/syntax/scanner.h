@@ -50,6 +50,7 @@ class Scanner {
   void comment();
   void open_comment();
   void bad_number();
+  void string();
   void bad_string();
   void open_string();
   void bad_character();

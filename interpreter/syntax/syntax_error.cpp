@@ -103,7 +103,7 @@ std::vector<std::string> expected_names(ExpectedSet set, ItemKind item) {
     names = statement_names(item);
     set.remove_words();
   } else if (set.is_item()) {
-    names = {"`rule`", "`interaction`", "`function`", "`import` or another item"};
+    names = {"`rule`", "`interaction`", "`function`", "`import`", "another item"};
     set.remove_words();
     set.remove({token::END});
   } else if (set.is_expression()) {
@@ -120,7 +120,7 @@ std::vector<std::string> expected_names(ExpectedSet set, ItemKind item) {
     set.remove({token::PLUS, token::MINUS, token::TIMES, token::DIVIDE, token::POWER, token::DOT,
                 token::AT, token::LPAREN, token::LBRACKET, token::LESS, token::LESS_EQUAL,
                 token::GREATER, token::GREATER_EQUAL, token::EQUAL, token::NOT_EQUAL, token::AND,
-                token::OR});
+                token::OR, token::IN});
   }
   for (const Kind kind : set.kinds()) {
     if (kind == token::INTEGER)
@@ -176,7 +176,7 @@ class Describer {
   }
 
   [[nodiscard]] std::string named(const Token& at) const {
-    if (at.kind == token::END) return "end of file";
+    if (at.kind == token::END) return "end of text";
     if (at.kind == token::STRING) return "string";
     const char* what = at.kind == token::NAME                                ? "name "
                        : is_reserved(at.kind)                                ? "reserved word "

@@ -56,9 +56,9 @@ bool TokenStream::begins_item(std::size_t i) const {
   }
 }
 
-/// Words that seldom begin a continued line.
-bool TokenStream::begins_statement(std::size_t i) const {
+bool TokenStream::begins_statement(std::size_t i, bool is_wrong) const {
   switch (tokens_[i].kind) {
+    // Words that seldom begin a continued line.
     case token::LEFT:
     case token::RIGHT:
     case token::MATCH:
@@ -70,6 +70,11 @@ bool TokenStream::begins_statement(std::size_t i) const {
     case token::FOR:
     case token::APPLY:
       return true;
+    // Words that may, but do not where they are wrong.
+    case token::WHERE:
+    case token::VALUE:
+    case token::FIRST:
+      return is_wrong;
     default:
       return false;
   }
@@ -92,7 +97,8 @@ std::size_t TokenStream::end_of_damage(std::size_t from) const {
   for (std::size_t i = from; i < end(); ++i) {
     const Token& at = tokens_[i];
     if (at.in_first_column && begins_item(i)) return i;
-    if (depth == 0 && at.first_on_line && (in_item ? begins_statement(i) : begins_item(i)))
+    if (depth == 0 && at.first_on_line &&
+        (in_item ? begins_statement(i, i == from) : begins_item(i)))
       return i;
     if (at.kind == token::LBRACE) ++depth;
     if (at.kind == token::SEMICOLON && depth == 0) return i + 1;
@@ -107,6 +113,10 @@ std::size_t TokenStream::end_of_damage(std::size_t from) const {
 void TokenStream::resynchronize() {
   take_back_last();
   pending_.clear();
+  // An item inside of another is noticed only behind its first word, which could be a name.
+  const bool behind_item = position_ > 0 && !open_.empty() &&
+                           tokens_[position_ - 1].in_first_column && begins_item(position_ - 1);
+  if (behind_item) --position_;
   const bool at_end = position_ == end();
   if (at_end && last_resumed_ == end()) return;  // the parser gives up when it sees END again
   // Going on twice at one place would never end.

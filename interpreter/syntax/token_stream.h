@@ -32,7 +32,7 @@ class TokenStream {
 
  private:
   [[nodiscard]] bool begins_item(std::size_t i) const;
-  [[nodiscard]] bool begins_statement(std::size_t i) const;
+  [[nodiscard]] bool begins_statement(std::size_t i, bool is_wrong) const;
   [[nodiscard]] std::size_t end_of_damage(std::size_t from) const;
   [[nodiscard]] std::size_t end() const { return tokens_.size() - 1; }
   void take_back_last();
