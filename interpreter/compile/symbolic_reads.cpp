@@ -56,7 +56,7 @@ SymbolicValue SymbolicWalker::read(const Expr& reader, EmbeddingId id, DartRef a
   if (failed()) return {};
   const ValueSource& source = sources_[id];
   switch (source.kind) {
-    case ValueSource::Kind::Column:
+    case ValueSource::Kind::Gathered:
       return read_column(reader, id, at);
     case ValueSource::Kind::Constant:
       return constant(world_.schema[id].type, source.constant);
@@ -139,7 +139,7 @@ SymbolicValue SymbolicWalker::has(const Expr& expr) {
       return SymbolicValue::of(1.0);
     case ValueSource::Kind::Missing:
       return SymbolicValue::of(0.0);
-    case ValueSource::Kind::Column:
+    case ValueSource::Kind::Gathered:
       break;
   }
   if (!world_.store.in_use(expr.embedding)) return SymbolicValue::of(1.0);

@@ -49,7 +49,7 @@ ValueSources stored_sources(const gmap::EmbeddingSchema& schema,
       sources.embeddings.push_back(ValueSource::expression(
           decl.derivation, ValueSource::Frame::SmallestDart, decl.dart_slot, decl.frame_size));
     } else if (store.in_use(id)) {
-      sources.embeddings.push_back(ValueSource::column());
+      sources.embeddings.push_back(ValueSource::gathered());
     } else if (decl.default_value) {
       sources.embeddings.push_back(ValueSource::uniform(decl.default_value->data));
     } else {

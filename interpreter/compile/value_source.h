@@ -17,12 +17,12 @@ using types::Slot;
 /// How the value of an embedding or of a parameter reaches a program.
 struct ValueSource {
   enum class Kind : std::uint8_t {
-    Column,      ///< gathered for each match: a stored column, or one that the engine keeps
+    Gathered,    ///< gathered for each match: a stored column, or one that the engine keeps
     Constant,    ///< the same everywhere: folded into the program
     Expression,  ///< computed inside the program from what `expr` reads
     Missing      ///< nobody has this value: reading it is an error
   };
-  Kind kind = Kind::Column;
+  Kind kind = Kind::Gathered;
   std::vector<double> constant = {};
   ExprPtr expr = nullptr;
   /// Of an Expression: the frame it lives in.
@@ -35,7 +35,7 @@ struct ValueSource {
   Slot dart{};
   std::uint32_t frame_size = 0;
 
-  static ValueSource column() { return {}; }
+  static ValueSource gathered() { return {}; }
   static ValueSource uniform(std::vector<double> value);
   static ValueSource expression(ExprPtr expr, Frame frame, Slot dart, std::uint32_t frame_size);
   static ValueSource missing();
