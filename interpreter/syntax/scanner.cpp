@@ -92,7 +92,7 @@ void Scanner::add(RuleParser::token_kind_type kind) {
 }
 
 void Scanner::doc_line() {
-  check_bytes();
+  if (!check_bytes()) return;
   std::string_view line = matched().substr(3);
   line = line.substr(0, line.find_last_not_of(" \t\r\f\v") + 1);
   if (line.starts_with(' ')) line.remove_prefix(1);
