@@ -157,7 +157,10 @@ class ApplyJob {
   bool apply_once() {
     const engine::RewriteOutcome outcome = apply();
     if (outcome.error) session_.diagnostics.report(*outcome.error);
-    applied_ += outcome.effects.applications;
+    rules_applied_ += outcome.effects.applications;
+    applied_ += session_.options.at.empty() && item_->hook_count() > 0
+                    ? tried_ - outcome.effects.dropped
+                    : outcome.applied();
     dropped_ += outcome.effects.dropped;
     touched_ += outcome.effects.touched.size();
     visited_ += outcome.effects.visited_darts();
@@ -174,7 +177,8 @@ class ApplyJob {
     if (item_->hook_count() == 0) return rewriter_->apply(*item_->rule, {}, arguments_);
     const std::vector<DartId> darts = candidates();
     if (session_.diagnostics.has_errors()) return {};
-    candidates_ += darts.size();
+    tried_ = darts.size();
+    candidates_ += tried_;
     if (item_->operation)
       return engine::OperationRunner(*rewriter_).run_each(*item_->operation, darts, arguments_);
     return item_->changes_values_only()
@@ -209,8 +213,9 @@ class ApplyJob {
     session_.out << '\n' << count_cells(state_->map) << '\n';
     if (session_.options.profile)
       session_.out << fmt::format(
-          "profile: {:.6f} s, {} candidates, {} touched darts, {} darts visited for upkeep\n",
-          seconds_, candidates_, touched_, visited_);
+          "profile: {:.6f} s, {} candidates, {} rules applied, {} touched darts, {} darts visited "
+          "for upkeep\n",
+          seconds_, candidates_, rules_applied_, touched_, visited_);
   }
 
   Session& session_;
@@ -224,7 +229,9 @@ class ApplyJob {
   CheckedExpression where_;
   std::optional<OrbitType> to_;
   double seconds_ = 0;
-  std::uint64_t applied_ = 0, dropped_ = 0, candidates_ = 0, touched_ = 0, visited_ = 0;
+  std::uint64_t tried_ = 0;  ///< candidates of the last pass
+  std::uint64_t applied_ = 0, dropped_ = 0, candidates_ = 0, rules_applied_ = 0;
+  std::uint64_t touched_ = 0, visited_ = 0;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "cli/run_cli.h"
 #include "cli/version.h"
+#include "support/suggest.h"
 
 namespace gmsim::cli {
 namespace {
@@ -62,6 +63,7 @@ void add_common(CLI::App& app, Options& options) {
       ->type_name("DIR");
   app.add_option("--trace", options.traces,
                  "PHASE[:RULE], phases parse check compile match kernel rewrite step")
+      ->allow_extra_args(false)
       ->type_name("PHASE");
 }
 
@@ -95,6 +97,7 @@ void add_rule_and_parameters(CLI::App& command, Options& options) {
   command.add_option("rule", options.rule, "the rule or operation")->required();
   command.add_option("files", options.files, "rule files that define it or what it needs");
   command.add_option("--param", options.parameters, "a parameter of the rule, NAME=VALUE")
+      ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
 }
 
@@ -106,6 +109,7 @@ void add_apply(CLI::App& app, Options& options) {
   command->add_option("--where", options.where, "only where this expression of `a` is true");
   command->add_option("--at", options.at, "only at these darts, one for each hook of the rule")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("DART,DART");
   command->add_option("--times", options.times, "repeat the whole application")
       ->check(CLI::Range(1u, 1000000u));
@@ -142,8 +146,23 @@ void add_fuzz(CLI::App& app, Options& options) {
 void add_dump(CLI::App& app, Options& options) {
   app.add_option("--dump", options.dumps, "tokens, ast, source, checked, plan")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::IsMember({"tokens", "ast", "source", "checked", "plan"}));
   app.add_option("files", options.files, "rule files to dump");
+}
+
+/// The first word is no command, and scenes cannot be run yet.
+void refuse_word(const Options& options, std::ostream& err) {
+  const std::string word = options.files.empty() ? "" : options.files.front();
+  if (word.ends_with(".yaml") || word.ends_with(".yml")) {
+    err << "error: this version does not run scenes yet [usage]\n"
+        << "help: it checks rule files and applies rules to meshes: `gmsim -h` shows how\n";
+    return;
+  }
+  const std::string guess =
+      support::did_you_mean(word, {"check", "list", "apply", "fuzz", "--dump"});
+  err << "error: `" << word << "` is no command [usage]\n"
+      << "help: " << (guess.empty() ? "commands are check, list, apply and fuzz" : guess) << '\n';
 }
 
 /// CLI11 throws for `-h` as well as for mistakes; tell them apart here.
@@ -189,8 +208,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments, std::ostream
     out << app.help();
     parsed.exit_code = kDone;
   } else {
-    err << "error: running scenes is not part of this version yet [usage]\n"
-        << "help: `gmsim check`, `list`, `apply`, `fuzz` and `--dump` work on rule files\n";
+    refuse_word(options, err);
     parsed.exit_code = kRejected;
   }
   return parsed;

@@ -21,7 +21,8 @@ std::optional<io::DataArray> read_array(const engine::State& state, EmbeddingId 
                                         const std::vector<gmap::DartId>& darts) {
   const gmap::EmbeddingDecl& declaration = state.store.schema()[id];
   engine::TreeEvaluator evaluator(state);
-  io::DataArray array{declaration.name, types::component_count(declaration.type)};
+  io::DataArray array{declaration.name, types::component_count(declaration.type),
+                      io::NumberType::Float64, {}};
   array.values.resize(darts.size() * array.components);
   for (std::size_t k = 0; k < darts.size(); ++k) {
     const std::span<double> row{array.values.data() + k * array.components, array.components};
@@ -48,7 +49,7 @@ void add_fields(const engine::State& state, types::OrbitType orbit,
 
 /// So that `--at` can name what a picture shows.
 io::DataArray dart_numbers(const std::vector<gmap::DartId>& darts) {
-  io::DataArray array{"dart", 1, io::NumberType::Int32};
+  io::DataArray array{"dart", 1, io::NumberType::Int32, {}};
   for (const gmap::DartId dart : darts) array.values.push_back(types::index(dart));
   return array;
 }
