@@ -41,10 +41,11 @@ std::vector<double> random_values(std::mt19937 random, std::size_t count, Number
 }
 
 std::vector<std::int32_t> distinct(std::mt19937& random, std::size_t count, std::size_t end) {
-  std::vector<std::int32_t> numbers(end);
-  for (std::size_t i = 0; i < end; ++i) numbers[i] = static_cast<std::int32_t>(i);
-  std::shuffle(numbers.begin(), numbers.end(), random);
-  numbers.resize(count);
+  std::vector<std::int32_t> numbers;
+  while (numbers.size() < count) {
+    const auto number = static_cast<std::int32_t>(random() % end);
+    if (std::find(numbers.begin(), numbers.end(), number) == numbers.end()) numbers.push_back(number);
+  }
   return numbers;
 }
 
