@@ -221,7 +221,7 @@ class TreePrinter {
   // ---- expressions ----
 
   void print_expr(const NumberExpr& node, const char* brackets) {
-    line("number {}{}{}", node.text, node.unit ? " " + to_text(*node.unit) : "", brackets);
+    line("number {}{}{}", node.text, with_blank(node.unit), brackets);
   }
   void print_expr(const BoolExpr& node, const char* brackets) {
     line("{}{}", node.value, brackets);
@@ -281,7 +281,7 @@ class TreePrinter {
     part(node.else_value);
   }
   void print_expr(const TupleExpr& node, const char* brackets) {
-    line("tuple{}{}", node.unit ? " " + to_text(*node.unit) : "", brackets);
+    line("tuple{}{}", with_blank(node.unit), brackets);
     parts(node.elements);
   }
 

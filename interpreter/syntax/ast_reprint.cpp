@@ -18,7 +18,7 @@ class SourcePrinter {
   void print(const Item& item) {
     std::istringstream lines(item.doc);
     for (std::string line; std::getline(lines, line);)
-      text_ += line.empty() ? "///\n" : "/// " + line + "\n";
+      add("///{}{}\n", line.empty() ? "" : " ", line);
     std::visit([&](const auto& node) { print_item(node); }, item.node);
   }
 
@@ -151,7 +151,7 @@ class SourcePrinter {
     const bool one_pattern = statement.side == SideKind::Match && inside.size() == 1 &&
                              !std::holds_alternative<DimensionStatement>(inside.front().node);
     if (one_pattern)
-      text_ += " " + to_text(inside.front());
+      add(" {}", to_text(inside.front()));
     else
       add_block(statement.block);
   }
@@ -245,7 +245,7 @@ class SourcePrinter {
 
   void print_expr(const NumberExpr& node) {
     text_ += node.text;
-    if (node.unit) text_ += " " + to_text(*node.unit);
+    text_ += with_blank(node.unit);
   }
   void print_expr(const BoolExpr& node) { text_ += node.value ? "true" : "false"; }
   void print_expr(const DimensionExpr&) { text_ += 'n'; }
@@ -317,7 +317,7 @@ class SourcePrinter {
     text_ += '(';
     add_list(node.elements);
     text_ += ')';
-    if (node.unit) text_ += " " + to_text(*node.unit);
+    text_ += with_blank(node.unit);
   }
 
   std::string text_;

@@ -48,7 +48,7 @@ std::string to_text(const LinkDimension& dimension) {
 std::string to_text(const OrbitExpr& orbit) {
   if (orbit.name) return orbit.name->text;
   const auto entry_text = [](const OrbitEntry& entry) { return to_text(entry); };
-  return "<" + joined(orbit.entries, ",", entry_text) + ">";
+  return fmt::format("<{}>", joined(orbit.entries, ",", entry_text));
 }
 
 std::string to_text(const UnitExpr& unit) {
@@ -58,7 +58,7 @@ std::string to_text(const UnitExpr& unit) {
   const auto below = std::find_if_not(unit.factors.begin(), unit.factors.end(), is_above);
   // Factors keep their order, so a mixed one cannot be written with a fraction bar.
   if (below == unit.factors.end() || std::any_of(below, unit.factors.end(), is_above))
-    return "[" + joined(unit.factors, " ", as_is) + "]";
+    return fmt::format("[{}]", joined(unit.factors, " ", as_is));
   const std::vector<UnitFactor> above(unit.factors.begin(), below);
   const std::vector<UnitFactor> divisors(below, unit.factors.end());
   const std::string top = above.empty() ? "1" : joined(above, " ", as_is);
@@ -68,11 +68,14 @@ std::string to_text(const UnitExpr& unit) {
   return fmt::format(fmt::runtime(divisors.size() > 1 ? "[{}/({})]" : "[{}/{}]"), top, bottom);
 }
 
+std::string with_blank(const std::optional<UnitExpr>& unit) {
+  return unit ? fmt::format(" {}", to_text(*unit)) : std::string{};
+}
+
 std::string to_text(const TypeExpr& type) {
   std::string text = type.name.text;
   for (const std::uint32_t extent : type.extents) text += fmt::format("[{}]", extent);
-  if (type.unit) text += " " + to_text(*type.unit);
-  return text;
+  return text + with_blank(type.unit);
 }
 
 std::string to_text(const NodeMention& mention) {
@@ -81,24 +84,25 @@ std::string to_text(const NodeMention& mention) {
 
 std::string to_text(const Link& link) {
   const auto step_text = [](const LinkDimension& step) { return to_text(step); };
-  return "-" + joined(link.path, ".", step_text) + "-";
+  return fmt::format("-{}-", joined(link.path, ".", step_text));
 }
 
 std::string to_text(const PatternStatement& statement) {
-  return std::visit(
-      Overloaded{[](const Chain& chain) {
-                   std::string text = to_text(chain.nodes.front());
-                   for (std::size_t i = 0; i < chain.links.size(); ++i)
-                     text += " " + to_text(chain.links[i]) + " " + to_text(chain.nodes[i + 1]);
-                   return text + ";";
-                 },
-                 [](const PatternUse& use) {
-                   return fmt::format("{}({});", use.pattern.text, to_text(use.arguments));
-                 },
-                 [](const DimensionStatement& dimension) {
-                   return fmt::format("dimension {};", dimension.dimension);
-                 }},
-      statement.node);
+  return std::visit(Overloaded{[](const Chain& chain) {
+                                 std::string text = to_text(chain.nodes.front());
+                                 for (std::size_t i = 0; i < chain.links.size(); ++i)
+                                   text += fmt::format(" {} {}", to_text(chain.links[i]),
+                                                       to_text(chain.nodes[i + 1]));
+                                 return text + ";";
+                               },
+                               [](const PatternUse& use) {
+                                 return fmt::format("{}({});", use.pattern.text,
+                                                    to_text(use.arguments));
+                               },
+                               [](const DimensionStatement& dimension) {
+                                 return fmt::format("dimension {};", dimension.dimension);
+                               }},
+                    statement.node);
 }
 
 std::string to_text(const std::vector<Name>& names) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,8 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 [[nodiscard]] std::string to_text(const LinkDimension& dimension);
 [[nodiscard]] std::string to_text(const OrbitExpr& orbit);
 [[nodiscard]] std::string to_text(const UnitExpr& unit);
+/// The unit with a blank before it, or nothing.
+[[nodiscard]] std::string with_blank(const std::optional<UnitExpr>& unit);
 [[nodiscard]] std::string to_text(const TypeExpr& type);
 [[nodiscard]] std::string to_text(const NodeMention& mention);
 [[nodiscard]] std::string to_text(const Link& link);
