@@ -15,29 +15,6 @@ static_assert(std::endian::native == std::endian::little, "the header says Littl
 
 namespace {
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (char c : text) {
-    switch (c) {
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '&':
-        result += "&amp;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 class VtuText {
  public:
   explicit VtuText(const MeshFrame& frame) : frame_(frame) {}
@@ -67,7 +44,7 @@ class VtuText {
              std::span<const Number> values, std::string_view more = {}) {
     out_ += fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">\n", type,
-        escaped(name), components, more);
+        xml_escaped(name), components, more);
     // Length and values are one run of base64.
     const auto bytes = std::as_bytes(values);
     const std::uint64_t length = bytes.size();

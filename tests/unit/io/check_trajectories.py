@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: MIT
 """check_trajectories.py WRITE_TRAJECTORY_SAMPLES: the samples hold what was to be written (h5py against the
-JSON beside them), and VTK reads what h5py reads."""
+JSON beside them), and VTK reads what h5py reads, there and in the exported .vtu."""
 
 import json
 import pathlib
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree
 
 import h5py
 import numpy as np
 import vtk
 
-from check_vtkhdf import Failure, RawTrajectory, check_file, require
+from check_vtkhdf import Failure, RawTrajectory, check_file, check_grid, require
 
 
 def field_of(raw, name, step, frame):
@@ -59,6 +60,19 @@ def check_gmsim_group(raw, frames):
     require(list(raw.root.attrs["Version"]) == ([2, 5] if has_polyhedra else [2, 0]), "Version")
 
 
+def check_export(raw, folder):
+    """The exported .vtu hold the same frames, and the .pvd has their times."""
+    collection = xml.etree.ElementTree.parse(folder / f"{folder.name}.pvd").getroot()
+    entries = list(collection.iter("DataSet"))
+    require([float(e.get("timestep")) for e in entries] == list(raw.steps["Values"]), "times in the .pvd")
+    for step, entry in enumerate(entries):
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(folder / entry.get("file")))
+        reader.Update()
+        mesh = raw.mesh(step)
+        check_grid(reader.GetOutput(), raw, mesh, step)
+
+
 def main():
     polyhedra = vtk.vtkVersion().GetVTKMajorVersion() * 100 + vtk.vtkVersion().GetVTKMinorVersion() >= 906
     with tempfile.TemporaryDirectory() as folder:
@@ -72,6 +86,7 @@ def main():
             for step, frame in enumerate(frames):
                 check_frame(raw, step, frame)
             check_gmsim_group(raw, frames)
+            check_export(raw, path.with_suffix(""))
             raw.close()
             if polyhedra or path.stem != "polyhedra":
                 check_file(path)

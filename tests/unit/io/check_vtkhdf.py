@@ -116,15 +116,19 @@ def check_arrays(found, expected, step):
         require(np.array_equal(read.reshape(values.shape), values, equal_nan=True), f"step {step}: {name}")
 
 
-def check_step(reader, raw, step):
-    reader.SetStep(step)
-    reader.Update()
-    grid, mesh = grid_of(reader), raw.mesh(step)
+def check_grid(grid, raw, mesh, step):
     points = vtk_to_numpy(grid.GetPoints().GetData()) if len(mesh["points"]) else mesh["points"]
     require(points.dtype == np.float64 and np.array_equal(points, mesh["points"]), f"step {step}: points")
     check_cells(grid, mesh, step)
     check_arrays(grid.GetPointData(), raw.data("PointData", step, len(mesh["points"])), step)
     check_arrays(grid.GetCellData(), raw.data("CellData", step, len(mesh["cells"])), step)
+
+
+def check_step(reader, raw, step):
+    reader.SetStep(step)
+    reader.Update()
+    grid = grid_of(reader)
+    check_grid(grid, raw, raw.mesh(step), step)
     check_arrays(grid.GetFieldData(), raw.field_data(step), step)
 
 

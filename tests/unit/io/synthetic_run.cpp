@@ -44,7 +44,8 @@ std::vector<std::int32_t> distinct(std::mt19937& random, std::size_t count, std:
   std::vector<std::int32_t> numbers;
   while (numbers.size() < count) {
     const auto number = static_cast<std::int32_t>(random() % end);
-    if (std::find(numbers.begin(), numbers.end(), number) == numbers.end()) numbers.push_back(number);
+    if (std::find(numbers.begin(), numbers.end(), number) == numbers.end())
+      numbers.push_back(number);
   }
   return numbers;
 }

@@ -6,6 +6,7 @@
 
 #include "io/base64.h"
 #include "io/obj_writer.h"
+#include "io/usd_writer.h"
 #include "io/vtu_writer.h"
 #include "scene/import_mesh.h"
 
@@ -68,4 +69,25 @@ TEST_CASE("names in a .vtu are escaped") {
   MeshFrame frame = sheet();
   frame.cell_data.push_back({"a<b & \"c\"", 1, io::NumberType::Int32, {1, 2}});
   CHECK(io::vtu_text(frame).find("Name=\"a&lt;b &amp; &quot;c&quot;\"") != std::string::npos);
+}
+
+TEST_CASE("a moving surface in .usda: faces only where they change, times in codes of 1/24 s") {
+  MeshFrame frame;
+  frame.points = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}};
+  frame.topology.add_cell(VtkCell::Triangle, std::vector<std::int32_t>{0, 1, 2});
+  frame.time = 2.0;
+  io::UsdText text;
+  text.add_frame(frame, true);
+  frame.time = 2.5;
+  frame.points[2][2] = 0.25;
+  text.add_frame(frame, false);
+  CHECK(text.finish() ==
+        "#usda 1.0\n(\n    defaultPrim = \"body\"\n    metersPerUnit = 1\n    upAxis = \"Z\"\n"
+        "    startTimeCode = 0\n    endTimeCode = 12\n    timeCodesPerSecond = 24\n)\n\n"
+        "def Mesh \"body\"\n{\n    uniform token subdivisionScheme = \"none\"\n"
+        "    point3f[] points.timeSamples = {\n"
+        "            0: [(0, 0, 0), (1, 0, 0), (0.5, 1, 0)],\n"
+        "            12: [(0, 0, 0), (1, 0, 0), (0.5, 1, 0.25)],\n    }\n"
+        "    int[] faceVertexCounts.timeSamples = {\n            0: [3],\n    }\n"
+        "    int[] faceVertexIndices.timeSamples = {\n            0: [0, 1, 2],\n    }\n}\n");
 }

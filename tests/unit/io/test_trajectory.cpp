@@ -7,6 +7,7 @@
 #include <fstream>
 #include <random>
 
+#include "io/export_trajectory.h"
 #include "io/recover.h"
 #include "io/sha256.h"
 #include "unit/io/synthetic_run.h"
@@ -240,6 +241,39 @@ TEST_CASE("a truncated file is an error, never a crash") {
     else
       CHECK(diagnostics.has_errors());
   }
+}
+
+TEST_CASE("frames are chosen for export, and named by their numbers") {
+  const Folder folder;
+  const SyntheticRun run({.seed = 12});
+  write_run(run, folder.path / "run.vtkhdf", 10);
+  Diagnostics diagnostics;
+  const auto reader = TrajectoryReader::open(folder.path / "run.vtkhdf", diagnostics);
+  REQUIRE(reader);
+  const auto names = [&](io::ExportOptions options) {
+    const auto files =
+        io::export_trajectory(*reader, folder.path / "out", "run", options, diagnostics);
+    std::vector<std::string> result;
+    if (files) {
+      for (const auto& file : *files) {
+        CHECK(std::filesystem::exists(file));
+        result.push_back(file.filename().string());
+      }
+    }
+    return result;
+  };
+  using Names = std::vector<std::string>;
+  using io::ExportFormat;
+  CHECK(names({.format = ExportFormat::Pvd, .first = 0, .last = -1, .every = 4}) ==
+        Names{"run.pvd", "run_0000.vtu", "run_0004.vtu", "run_0008.vtu"});
+  CHECK(names({.format = ExportFormat::Obj, .first = -2}) == Names{"run_0008.obj", "run_0009.obj"});
+  CHECK(names({.format = ExportFormat::Usd, .first = 3, .last = 3}) == Names{"run.usda"});
+  CHECK_FALSE(diagnostics.has_errors());
+  CHECK(names({.first = 10}).empty());
+  CHECK(diagnostics.all().back().message ==
+        "there are no frames from 10 to -1 by 1; the file has 0 to 9");
+  CHECK(io::find_export_format("usd") == ExportFormat::Usd);
+  CHECK_FALSE(io::find_export_format("stl"));
 }
 
 TEST_CASE("names of fields") {

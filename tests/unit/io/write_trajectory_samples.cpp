@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // write_trajectory_samples FOLDER: trajectories of synthetic runs, and beside each what its frames
-// must read as, in JSON. check_trajectories.py compares them.
+// must read as, in JSON, and a folder of its frames as .vtu. check_trajectories.py compares them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <filesystem>
 #include <iostream>
 
+#include "io/export_trajectory.h"
 #include "io/text_file.h"
 #include "support/source_map.h"
 #include "unit/io/synthetic_run.h"
@@ -51,6 +52,9 @@ bool write(const std::filesystem::path& folder, const std::string& name,
   for (std::int64_t i = 0; ok && i < kFrames; ++i) ok = run.write(*writer, i, diagnostics);
   ok = ok && writer->close("", diagnostics) &&
        io::write_file(folder / (name + ".json"), json(run), diagnostics);
+  const auto reader =
+      ok ? io::TrajectoryReader::open(folder / (name + ".vtkhdf"), diagnostics) : nullptr;
+  ok = ok && reader && io::export_trajectory(*reader, folder / name, name, {}, diagnostics);
   support::render(diagnostics, support::SourceMap{}, std::cerr);
   return ok;
 }
