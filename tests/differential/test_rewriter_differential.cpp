@@ -2,6 +2,8 @@
 // The rewriter against the reference by definition: the same map, dart by dart.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "engine/rewrite.h"
 #include "gmap/validate.h"
 #include "support/engine_maps.h"
@@ -43,8 +45,22 @@ std::vector<int> reference_names(const compile::Rule& rule, const check::Rule& c
   return names;
 }
 
+/// Labels of the right as long as those of the left, links that the map has, none by a path.
+bool can_rewrite(const check::Rule& rule) {
+  const std::size_t length = rule.left.nodes.empty() ? 0 : rule.left.nodes.front().label.size();
+  for (const check::PatternNode& node : rule.right.nodes) {
+    if (node.label.size() != length) return false;
+    if (std::any_of(node.label.begin(), node.label.end(),
+                    [&](int i) { return i > rule.dimension; })) {
+      return false;
+    }
+  }
+  return std::all_of(rule.right.arcs.begin(), rule.right.arcs.end(),
+                     [&](const check::PatternArc& arc) { return arc.dimension <= rule.dimension; });
+}
+
 void compare(const check::Rule& given, const Host& host, Counts& counts) {
-  if (!can_compile(given.left, given.hooks, given.dimension)) return;
+  if (!can_compile(given.left, given.hooks, given.dimension) || !can_rewrite(given)) return;
   const check::Rule checked = with_slots(given);
   CAPTURE(to_text(checked));
   CAPTURE(to_string(host.map));
