@@ -209,8 +209,10 @@ class OperationChecker {
            .related = {{target->span, "declared here"}}});
       return;
     }
+    bool all_known = true;
     for (const syntax::NamedArgument& argument : apply.parameters)
-      add_parameter(argument, *target, apply.rule.text, result);
+      all_known &= add_parameter(argument, *target, apply.rule.text, result);
+    if (!all_known) return;
     for (const Parameter& parameter : *target->parameters)
       if (!parameter.default_value && std::ranges::none_of(apply.parameters, [&](const auto& given) {
             return given.name.text == parameter.name;
@@ -225,7 +227,7 @@ class OperationChecker {
     body.push_back({span, std::move(result)});
   }
 
-  void add_parameter(const syntax::NamedArgument& argument, const Target& target,
+  bool add_parameter(const syntax::NamedArgument& argument, const Target& target,
                      const std::string& rule, OpApply& apply) {
     const auto parameter =
         std::ranges::find(*target.parameters, argument.name.text, &Parameter::name);
@@ -236,7 +238,7 @@ class OperationChecker {
                        .message = "`" + rule + "` has no parameter `" + argument.name.text + "`",
                        .place = argument.name.span,
                        .help = support::did_you_mean(argument.name.text, names)});
-      return;
+      return false;
     }
     const bool twice = std::ranges::any_of(
         apply.parameters, [&](const auto& given) { return given.first == parameter->slot; });
@@ -244,13 +246,14 @@ class OperationChecker {
       context_.report({.kind = DiagnosticKind::DuplicateName,
                        .message = "`" + argument.name.text + "` is given twice",
                        .place = argument.name.span});
-      return;
+      return false;
     }
     const ExprPtr value = ExprChecker(context_).check_as(
         argument.value, {.type = parameter->type, .unit = parameter->unit,
                          .scale = parameter->unit_scale,
                          .what = "parameter `" + parameter->name + "`"});
     apply.parameters.emplace_back(parameter->slot, value);
+    return true;
   }
 
   ItemContext& context_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // `--dump checked`: the items of one file as they are after checking.
+#include <map>
 #include <ostream>
-#include <set>
+#include <utility>
 
 #include "check/check.h"
 #include "check/make_expr.h"
@@ -23,6 +24,14 @@ std::string_view text_of(gmap::MergePolicy policy) {
   return "";
 }
 
+/// Names of locals told apart: scopes that do not meet may share a name.
+std::vector<std::string> distinct(std::vector<std::string> names) {
+  std::map<std::string, int> uses;
+  for (std::string& name : names)
+    if (const int count = uses[name]++; count > 0) name += "#" + std::to_string(count + 1);
+  return names;
+}
+
 class Dump {
  public:
   Dump(const RuleLibrary& library, std::ostream& out) : library_(library), out_(out) {
@@ -33,7 +42,10 @@ class Dump {
 
   void value(const gmap::EmbeddingDecl& v) {
     if (v.role != gmap::EmbeddingRole::Data) return;  // shown with their interaction
-    names_.slots = {"a"};
+    names_.slots.clear();
+    for (std::uint32_t i = 0; i < v.frame_size; ++i)
+      names_.slots.push_back(std::string(1, static_cast<char>('a' + i % 26)) +
+                             (i < 26 ? "" : std::to_string(i / 26)));
     out_ << (v.kind == gmap::EmbeddingKind::Derived ? "derived " : "embedding ") << v.name << " : "
          << type_text(v.type, v.unit) << " on " << to_string(v.orbit);
     behaviour(v);
@@ -100,7 +112,7 @@ class Dump {
 
  private:
   void head(std::string_view kind, const ItemHead& item) {
-    names_.slots = item.slot_names;
+    names_.slots = distinct(item.slot_names);
     out_ << kind << " " << item.name;
   }
 

@@ -59,8 +59,10 @@ class Coverage {
       return;
     }
     if (expr.kind == ExprKind::Let) bound_[expr.slot] = expr.args[0];
-    if (expr.kind == ExprKind::Fold && has_kind(expr.args[0], ValueKind::Darts))
+    if (expr.kind == ExprKind::Fold && has_kind(expr.args[0], ValueKind::Darts)) {
       sets_[expr.slot] = collection(*expr.args[0], false);
+      collections_[expr.slot] = expr.args[0];
+    }
     if (expr.kind == ExprKind::Embedding && position_ && expr.embedding == *position_)
       check_read(expr);
     for (const ExprPtr& arg : expr.args) visit(*arg);
@@ -152,12 +154,18 @@ class Coverage {
     types::ExprNames names;
     names.slots = context_.slot_names;
     const std::string dart = to_string(*read.args[0], names);
+    if (!reported_.insert(dart).second) return;
+    std::string target = dart;
+    if (const auto of = collections_.find(read.args[0]->slot);
+        read.args[0]->kind == ExprKind::Local && of != collections_.end())
+      target += " in " + to_string(*of->second, names);
     context_.report({.kind = DiagnosticKind::ForceMissing,
                      .message = "the energy reads the position of `" + dart +
                                 "`, and no `force` line gives it a force",
                      .place = read.span,
                      .related = {{interaction_.energy->span, "the energy"}},
-                     .help = "add `force " + dart + " on dart;`, or hold the value with `frozen(…)`"});
+                     .help = "add `force " + target + " on dart;`, or hold the value with "
+                             "`frozen(…)`"});
   }
 
   const Interaction& interaction_;
@@ -166,6 +174,8 @@ class Coverage {
   std::optional<EmbeddingId> position_;
   std::map<Slot, DartSets> sets_;
   std::map<Slot, ExprPtr> bound_;
+  std::map<Slot, ExprPtr> collections_;  ///< what fold variables go over
+  std::set<std::string> reported_;
   DartSets targets_;
   std::set<const Expr*> done_;
 };

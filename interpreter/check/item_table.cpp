@@ -84,9 +84,12 @@ void ItemTable::add(ItemEntry entry, support::Diagnostics& diagnostics) {
 
 bool ItemTable::accept_word(const ItemEntry& entry, support::Diagnostics& diagnostics) const {
   const bool called = entry.kind == ItemKind::Function || entry.kind == ItemKind::Orbit;
-  if (!called || !is_builtin_word(entry.name->text)) return true;
+  const bool builtin = called && is_builtin_word(entry.name->text);
+  const bool orbit = entry.kind == ItemKind::Function && is_predeclared_orbit(entry.name->text);
+  if (!builtin && !orbit) return true;
   diagnostics.report({.kind = DiagnosticKind::DuplicateName,
-                      .message = "`" + entry.name->text + "` is a builtin function",
+                      .message = "`" + entry.name->text + "` is " +
+                                 (builtin ? "a builtin function" : "a predeclared orbit"),
                       .place = entry.name->span,
                       .help = "choose another name"});
   return false;
@@ -173,6 +176,12 @@ std::vector<OrbitName> predeclared_orbits(int n) {
   orbits.push_back({"halffacet", OrbitType::range(0, n - 2), "A facet seen from one element."});
   orbits.push_back({"halfedge", OrbitType{0}, "Two darts linked by 0."});
   return orbits;
+}
+
+bool is_predeclared_orbit(std::string_view word) {
+  for (const OrbitName& orbit : predeclared_orbits(types::kMaxDimension))
+    if (orbit.name == word) return true;
+  return false;
 }
 
 bool is_builtin_word(std::string_view word) {

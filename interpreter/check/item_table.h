@@ -70,6 +70,8 @@ class ItemTable {
 
 /// The orbits that every file knows in a map of this dimension.
 [[nodiscard]] std::vector<OrbitName> predeclared_orbits(int dimension);
+/// In some dimension.
+[[nodiscard]] bool is_predeclared_orbit(std::string_view word);
 /// A word such as `sum`, `has` or `norm` that a call already has a meaning for.
 [[nodiscard]] bool is_builtin_word(std::string_view word);
 /// All of them, for suggestions.

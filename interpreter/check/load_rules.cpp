@@ -58,9 +58,8 @@ class Loader {
   void load_library() {
     const std::vector<std::string> names = module_names(library_);
     for (const std::string& module : options_.modules) {
-      if (std::ranges::any_of(library_, [&](const LibraryText& text) {
-            return in_modules(text.path, {module}) && in_modules(text.path, options_.modules);
-          }))
+      if (std::ranges::any_of(
+              library_, [&](const LibraryText& text) { return belongs_to(text.path, module); }))
         continue;
       diagnostics_.report({.kind = DiagnosticKind::ImportNotFound,
                            .message = "the library has no module `" + module + "`",

@@ -2,6 +2,7 @@
 #include "check/merge_reports.h"
 
 #include <algorithm>
+#include <set>
 
 namespace gmsim::check {
 using support::Diagnostic;
@@ -62,6 +63,19 @@ std::string reason(const ItemState& state) {
   return state.status == ItemStatus::Failed ? "something that it needs has an error" : "";
 }
 
+/// A name is absent from a dimension only if no item of that name is there.
+void forget_present(const ItemTable& items, const std::array<Environment, 3>& environments,
+                    Absences& absences) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::set<std::string> present;
+    for (ItemIndex i = 0; i < items.entries().size(); ++i)
+      if (environments[d].states[i].status == ItemStatus::Present)
+        present.insert(items[i].name->text);
+    for (auto& [name, reasons] : absences)
+      if (present.contains(name)) reasons[d].clear();
+  }
+}
+
 }  // namespace
 
 Absences merge_reports(const ItemTable& items, const std::array<Environment, 3>& environments,
@@ -86,6 +100,7 @@ Absences merge_reports(const ItemTable& items, const std::array<Environment, 3>&
     }
     if (any) absences.emplace_back(entry.name->text, std::move(reasons));
   }
+  forget_present(items, environments, absences);
   return absences;
 }
 

@@ -37,12 +37,6 @@ std::optional<std::vector<LabelEntry>> resolve_entries(ItemContext& context,
   return entries;
 }
 
-bool is_predeclared(const std::string& name) {
-  for (const OrbitName& orbit : predeclared_orbits(types::kMaxDimension))
-    if (orbit.name == name) return true;
-  return false;
-}
-
 std::vector<std::string> orbit_names(const ItemContext& context) {
   std::vector<std::string> names;
   for (const OrbitName& orbit : context.env.library->orbits) names.push_back(orbit.name);
@@ -61,7 +55,7 @@ std::optional<int> resolve_link(ItemContext& context, const syntax::LinkDimensio
 }
 
 bool names_orbit(const ItemContext& context, const std::string& name) {
-  return context.env.library->find_orbit(name) || is_predeclared(name) ||
+  return context.env.library->find_orbit(name) || is_predeclared_orbit(name) ||
          context.env.items->find(NameSpace::Orbits, name, context.n());
 }
 
@@ -72,7 +66,7 @@ std::optional<OrbitType> resolve_orbit_name(ItemContext& context, const syntax::
     if (context.require(*item, name.span)) context.poison();
     return std::nullopt;
   }
-  if (is_predeclared(name.text)) {
+  if (is_predeclared_orbit(name.text)) {
     context.absent(DiagnosticKind::Dimension, name.span,
                    "there is no orbit `" + name.text + "`" + in_dimension(context.n()));
     return std::nullopt;

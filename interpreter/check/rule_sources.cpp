@@ -56,12 +56,14 @@ std::vector<LibraryText> library_texts(const LibraryOptions& options) {
   return texts;
 }
 
+bool belongs_to(std::string_view path, const std::string& module) {
+  return module == folder_of(path) || module == without_extension(path) || module == stem_of(path);
+}
+
 bool in_modules(std::string_view path, const std::vector<std::string>& modules) {
   if (modules.empty() || path == "particles.rule" || path == "patterns.rule") return true;
-  return std::ranges::any_of(modules, [&](const std::string& module) {
-    return module == folder_of(path) || module == without_extension(path) ||
-           module == stem_of(path);
-  });
+  return std::ranges::any_of(
+      modules, [&](const std::string& module) { return belongs_to(path, module); });
 }
 
 std::vector<std::string> module_names(const std::vector<LibraryText>& library) {

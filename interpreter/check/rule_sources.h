@@ -24,6 +24,8 @@ struct LibraryText {
 /// Whether the file "tear/x.rule" belongs to one of `modules` ("tear", "tear/x", "x"); particles and
 /// patterns belong to every choice, and an empty choice means all.
 [[nodiscard]] bool in_modules(std::string_view path, const std::vector<std::string>& modules);
+/// Whether a file belongs to one module by name.
+[[nodiscard]] bool belongs_to(std::string_view path, const std::string& module);
 /// What can be asked for in `modules`, for suggestions.
 [[nodiscard]] std::vector<std::string> module_names(const std::vector<LibraryText>& library);
 
