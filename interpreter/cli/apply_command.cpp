@@ -41,11 +41,13 @@ bool report_problems(const std::vector<gmap::MeshProblem>& problems, Session& se
 
 /// Number of cells of each dimension and of connected pieces, for the summary.
 std::string count_cells(const gmap::GMap& map) {
-  static constexpr const char* kNames[] = {"vertices", "edges", "faces", "volumes"};
+  static constexpr const char* kOne[] = {"vertex", "edge", "face", "volume"};
+  static constexpr const char* kMany[] = {"vertices", "edges", "faces", "volumes"};
   std::vector<std::string> counts = {fmt::format("{} darts", map.dart_count())};
-  for (int i = 0; i <= map.dimension(); ++i)
-    counts.push_back(fmt::format(
-        "{} {}", gmap::all_orbits(map, OrbitType::cell(i, map.dimension())).size(), kNames[i]));
+  for (int i = 0; i <= map.dimension(); ++i) {
+    const std::size_t cells = gmap::all_orbits(map, OrbitType::cell(i, map.dimension())).size();
+    counts.push_back(fmt::format("{} {}", cells, cells == 1 ? kOne[i] : kMany[i]));
+  }
   const std::size_t pieces = gmap::all_orbits(map, OrbitType::range(0, map.dimension())).size();
   counts.push_back(fmt::format("{} piece{}", pieces, pieces == 1 ? "" : "s"));
   return fmt::format("{}", fmt::join(counts, ", "));
@@ -209,7 +211,8 @@ class ApplyJob {
   void summarise() {
     session_.out << fmt::format("{}: applied {} time{}", session_.options.rule, applied_,
                                 applied_ == 1 ? "" : "s");
-    if (dropped_ > 0) session_.out << fmt::format(", {} candidates did not match", dropped_);
+    if (dropped_ > 0) session_.out << fmt::format(", {} candidate{} did not match", dropped_,
+                                                   dropped_ == 1 ? "" : "s");
     session_.out << '\n' << count_cells(state_->map) << '\n';
     if (session_.options.profile)
       session_.out << fmt::format(

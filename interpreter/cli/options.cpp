@@ -61,10 +61,6 @@ void add_common(CLI::App& app, Options& options) {
   app.add_option("--stdlib", options.stdlib_folder,
                  "read the standard library from this folder instead of the one built in")
       ->type_name("DIR");
-  app.add_option("--trace", options.traces,
-                 "PHASE[:RULE], phases parse check compile match kernel rewrite step")
-      ->allow_extra_args(false)
-      ->type_name("PHASE");
 }
 
 CLI::Option* add_dimension(CLI::App& app, Options& options) {
@@ -188,6 +184,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments, std::ostream
   app.require_subcommand(0, 1);
   app.get_formatter()->column_width(30);
   add_dump(app, options);
+  add_dimension(app, options);
   add_common(app, options);
   add_check(app, options);
   add_list(app, options);

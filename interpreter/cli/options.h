@@ -17,7 +17,6 @@ struct Options {
 
   // every command
   std::filesystem::path stdlib_folder;
-  std::vector<std::string> traces;
   std::vector<std::string> dumps;
   std::vector<std::string> files;  ///< rule files (and scenes, for check)
   int dimension = 0;               ///< 0: decided by the mesh, or all

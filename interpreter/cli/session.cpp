@@ -16,15 +16,7 @@ namespace gmsim::cli {
 using support::DiagnosticKind;
 
 Session::Session(const Options& options_in, std::ostream& out_in, std::ostream& err_in)
-    : options(options_in), out(out_in), err(err_in), trace(err_in) {
-  for (const std::string& filter : options.traces)
-    if (!trace.enable(filter))
-      diagnostics.report(
-          {.kind = DiagnosticKind::Usage,
-           .message = fmt::format("no trace phase in `{}`", filter),
-           .help = "phases are parse, check, compile, match, kernel, rewrite and step; "
-                   "`match:RULE` follows one rule"});
-}
+    : options(options_in), out(out_in), err(err_in) {}
 
 check::CheckedRules Session::check_rules() {
   check::LibraryOptions library;

@@ -9,7 +9,6 @@
 #include "cli/options.h"
 #include "support/diagnostic.h"
 #include "support/source_map.h"
-#include "support/trace.h"
 
 namespace gmsim::cli {
 
@@ -29,7 +28,6 @@ class Session {
   std::ostream& err;
   support::SourceMap sources;
   support::Diagnostics diagnostics;
-  support::Trace trace;
 };
 
 }  // namespace gmsim::cli

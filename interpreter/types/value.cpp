@@ -93,6 +93,7 @@ bool Value::finite() const {
 }
 
 std::string number_text(double x) {
+  if (std::isnan(x)) return "nan";  // the sign of a NaN depends on the processor
   std::array<char, 32> buffer;
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x);
   return {buffer.data(), result.ptr};

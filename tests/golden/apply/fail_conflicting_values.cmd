@@ -1,0 +1,1 @@
+apply mark_ends %d/files/conflict.rule --mesh grid:quads:1x1

@@ -1,0 +1,1 @@
+apply separate_elements --mesh %d/files/absent.msh

@@ -1,0 +1,1 @@
+apply warm %d/files/optional.rule --mesh grid:quads:1x1

@@ -1,0 +1,1 @@
+apply extrude_edge --mesh grid:quads:2x2

@@ -1,0 +1,1 @@
+apply separate_elements --mesh grid:quds:2x2

@@ -1,0 +1,1 @@
+apply separate_element --mesh grid:quads:2x2

@@ -1,0 +1,2 @@
+list orbits --dimension 2
+list embeddings --dimension 3
