@@ -14,7 +14,8 @@ namespace gmsim::syntax {
 
 /// Parses a rule file. Errors go to `diagnostics`; after an error parsing resumes at the next `;`,
 /// `}` or item, so that one run shows several. Items that were read whole are returned even then.
-/// Any text gives diagnostics or a tree: nesting and length are bounded.
+/// Any text gives diagnostics or a tree: nesting, the height of trees and the length of a text are
+/// bounded, and reading gives up after 100 errors.
 [[nodiscard]] RuleFile parse_rule_file(const support::SourceMap& sources, support::FileId file,
                                        support::Diagnostics& diagnostics);
 

@@ -29,6 +29,9 @@ class ParseContext {
   ParseContext(const support::SourceMap& sources, support::FileId file,
                support::Diagnostics& diagnostics, RuleParser::token_kind_type start);
 
+  ParseContext(const ParseContext&) = delete;  // the scanner reports to this one
+  ParseContext& operator=(const ParseContext&) = delete;
+
   // ---- for the parser ----
   [[nodiscard]] RuleParser::symbol_type next_token();
   /// Counts one more level of nesting in `guard`; false, with an error reported, at the limit.

@@ -242,6 +242,8 @@ class Describer {
     if (found.kind == token::DOT && (expected_.is_expression() || follows_number()))
       return "a number has digits on both sides of its point, as in `0.5`";
     if (found.kind == token::ASSIGN && expected_.has(token::EQUAL)) return "equality is `==`";
+    if (found.kind == token::GREATER_EQUAL && expected_.has(token::GREATER))
+      return "put a blank between `>` and `=`";
     const bool compares = found.kind >= token::LESS && found.kind <= token::NOT_EQUAL;
     if (compares && expected_.is_after_operand())
       return "comparisons do not chain: write `a < b and b < c`";

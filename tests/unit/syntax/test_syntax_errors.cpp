@@ -120,6 +120,8 @@ TEST_CASE("frequent slips are explained") {
          "a number has digits on both sides of its point, as in `0.5`"});
   check({"function f(a) = a < b «<» c;", kSyntax, "unexpected `<`; expected an operator or `;`",
          "comparisons do not chain: write `a < b and b < c`"});
+  check({"orbit o = <1>;\nembedding e : real on <1«>=» 3;", kSyntax,
+         "unexpected `>=`; expected `,`, `..` or `>`", "put a blank between `>` and `=`"});
   check({"rule r(a) { where a «=» b; }", kSyntax, "unexpected `=`; expected an operator or `;`",
          "equality is `==`"});
   check({"function f(a) = a «&&» b;", DiagnosticKind::BadCharacter, "unexpected character `&&`",
