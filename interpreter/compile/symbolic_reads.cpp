@@ -54,6 +54,25 @@ void SymbolicWalker::fail_missing(const Expr& reader, EmbeddingId id, DartId dar
 
 SymbolicValue SymbolicWalker::read(const Expr& reader, EmbeddingId id, DartRef at) {
   if (failed()) return {};
+  const bool gathered = sources_[id].kind == ValueSource::Kind::Gathered;
+  if (!gathered && !carries_interaction(id, at)) {
+    fail_missing(reader, id, at.dart);
+    return {};
+  }
+  return read_source(reader, id, at);
+}
+
+/// A parameter that is the same everywhere has no column, but belongs to the orbits that carry its
+/// interaction only. True for everything else.
+bool SymbolicWalker::carries_interaction(EmbeddingId parameter, DartRef at) {
+  const std::optional<EmbeddingId> mark = presences_[types::index(parameter)];
+  if (!mark || !world_.store.in_use(*mark)) return true;
+  const std::span<const double> value = world_.store.get(*mark, at.dart);
+  trace_.spoil();
+  return !value.empty() && value[0] != 0.0;
+}
+
+SymbolicValue SymbolicWalker::read_source(const Expr& reader, EmbeddingId id, DartRef at) {
   const ValueSource& source = sources_[id];
   switch (source.kind) {
     case ValueSource::Kind::Gathered:
@@ -71,7 +90,7 @@ SymbolicValue SymbolicWalker::read(const Expr& reader, EmbeddingId id, DartRef a
 
 SymbolicValue SymbolicWalker::read_parameter(const BodyParameter& parameter, const Expr& reader) {
   const DartRef hook = cell(body_.dart).value.dart;
-  if (parameter.embedding) return read(reader, *parameter.embedding, hook);
+  if (parameter.embedding) return read_source(reader, *parameter.embedding, hook);
   const ValueSource* source = sources_.find_parameter(parameter.slot);
   GMSIM_CHECK(source != nullptr, fmt::format("parameter `{}` of `{}` has no source",
                                              parameter.name, body_.name));
@@ -132,11 +151,16 @@ SymbolicValue SymbolicWalker::has(const Expr& expr) {
   if (failed()) return SymbolicValue::of(0.0);
   const ValueSource& source = sources_[expr.embedding];
   const bool mark = world_.schema[expr.embedding].role == gmap::EmbeddingRole::Presence;
+  const auto outcome = [&](bool present) {
+    decide(present ? 1 : 0);
+    return SymbolicValue::of(present ? 1.0 : 0.0);
+  };
   switch (source.kind) {
     case ValueSource::Kind::Constant:
-      return SymbolicValue::of(!mark || source.constant.at(0) != 0.0 ? 1.0 : 0.0);
     case ValueSource::Kind::Expression:
-      return SymbolicValue::of(1.0);
+      if (mark && source.kind == ValueSource::Kind::Constant)
+        return outcome(source.constant.at(0) != 0.0);
+      return outcome(carries_interaction(expr.embedding, at));
     case ValueSource::Kind::Missing:
       return SymbolicValue::of(0.0);
     case ValueSource::Kind::Gathered:
@@ -144,10 +168,8 @@ SymbolicValue SymbolicWalker::has(const Expr& expr) {
   }
   if (!world_.store.in_use(expr.embedding)) return SymbolicValue::of(1.0);
   const std::span<const double> value = world_.store.get(expr.embedding, at.dart);
-  const bool present = !value.empty() && (!mark || value[0] != 0.0);
-  decide(present ? 1 : 0);
   trace_.spoil();
-  return SymbolicValue::of(present ? 1.0 : 0.0);
+  return outcome(!value.empty() && (!mark || value[0] != 0.0));
 }
 
 SymbolicValue SymbolicWalker::random(const Expr& expr) {

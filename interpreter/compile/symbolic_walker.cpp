@@ -17,7 +17,13 @@ using types::ValueKind;
 
 SymbolicWalker::SymbolicWalker(const World& world, const ItemBody& body,
                                const ValueSources& sources)
-    : world_(world), body_(body), sources_(sources), roles_(world) {}
+    : world_(world), body_(body), sources_(sources), roles_(world) {
+  for (const gmap::EmbeddingDecl& decl : world.schema) {
+    const bool parameter = decl.role == gmap::EmbeddingRole::Parameter;
+    presences_.push_back(parameter ? world.schema.find(decl.name.substr(0, decl.name.find('.')))
+                                   : std::nullopt);
+  }
+}
 
 void SymbolicWalker::start(std::span<const DartId> nodes, ir::Graph* graph) {
   GMSIM_CHECK(nodes.size() == body_.nodes.size(), "one dart for each node of the pattern");

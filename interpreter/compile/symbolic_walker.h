@@ -84,6 +84,8 @@ class SymbolicWalker {
 
   // symbolic_reads.cpp
   [[nodiscard]] SymbolicValue read(const Expr& reader, EmbeddingId id, DartRef at);
+  [[nodiscard]] SymbolicValue read_source(const Expr& reader, EmbeddingId id, DartRef at);
+  [[nodiscard]] bool carries_interaction(EmbeddingId parameter, DartRef at);
   [[nodiscard]] SymbolicValue read_parameter(const BodyParameter& parameter, const Expr& reader);
   [[nodiscard]] SymbolicValue read_column(const Expr& reader, EmbeddingId id, DartRef at);
   [[nodiscard]] SymbolicValue expand(const ValueSource& source, DartRef at, OrbitType orbit);
@@ -159,6 +161,7 @@ class SymbolicWalker {
   std::vector<Draw> draws_;
   std::vector<NodeId> positions_;
   std::optional<SpecialiseFailure> failure_;
+  std::vector<std::optional<EmbeddingId>> presences_;  // of parameters, their interaction's mark
 };
 
 }  // namespace gmsim::compile
