@@ -3,6 +3,7 @@
 //
 //   crash_trajectory kills COUNT SEED FOLDER    SIGKILL at random moments
 //   crash_trajectory limits COUNT SEED FOLDER   writes that fail at random sizes of the file
+//   crash_trajectory snapshots COUNT SEED FOLDER   copies of runs that go on meanwhile
 //   crash_trajectory child PATH SEED POINTS FRAMES LIMIT
 //
 // SEED 0: a fresh one, printed. The recovered files stay in FOLDER (check_crashes.py shows them to
@@ -34,6 +35,7 @@ using test::SyntheticRun;
 namespace {
 
 constexpr std::int64_t kFrames = 60;
+constexpr std::int64_t kForever = 1000000;
 constexpr int kWriteFailed = 3;
 
 SyntheticRun run_of(std::uint32_t seed, std::size_t points) {
@@ -95,7 +97,7 @@ class Child {
   void kill() { ::kill(process_, SIGKILL); }
   /// The status of the ended child; counts the acknowledgements that are left.
   int finish() {
-    wait_for(kFrames + 1);
+    wait_for(kForever);
     int status = 0;
     waitpid(process_, &status, 0);
     return status;
@@ -134,10 +136,11 @@ struct Trial {
   std::uint32_t seed;
   std::size_t points;
 
-  [[nodiscard]] std::vector<std::string> arguments(std::uint64_t limit) const {
+  [[nodiscard]] std::vector<std::string> arguments(std::uint64_t limit,
+                                                   std::int64_t frames = kFrames) const {
     return {"crash_trajectory",     "child",
             path.string(),          std::to_string(seed),
-            std::to_string(points), std::to_string(kFrames),
+            std::to_string(points), std::to_string(frames),
             std::to_string(limit)};
   }
 };
@@ -169,6 +172,55 @@ std::string fail_somewhere(const Trial& trial, std::mt19937& random, std::int64_
     return fmt::format("limit {} of {}: the child ended with status {}", limit, size, status);
   }
   return "";
+}
+
+struct Snapshot {
+  std::filesystem::path path;
+  std::int64_t reported = 0;  ///< frames reported before it was taken
+  std::int64_t frames = 0;    ///< frames in it
+};
+
+/// Copies of a run, taken while it goes on.
+std::vector<Snapshot> take_snapshots(Child& child, const Trial& trial, int count,
+                                     std::string& problem) {
+  std::vector<Snapshot> snapshots;
+  for (int i = 0; i < count; ++i) {
+    child.wait_for(child.frames() + 3);
+    Snapshot snapshot{trial.path.parent_path() / fmt::format("snapshot{}.vtkhdf", i),
+                      child.frames()};
+    support::Diagnostics diagnostics;
+    const auto frames = io::recover(io::part_path(trial.path), snapshot.path, diagnostics);
+    if (!frames) {
+      problem = diagnostics.all().front().message;
+      break;
+    }
+    snapshot.frames = *frames;
+    snapshots.push_back(snapshot);
+  }
+  return snapshots;
+}
+
+/// Every snapshot must hold what had been reported before.
+int snapshots(int count, std::uint32_t seed, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const Trial trial{folder / "live.vtkhdf", seed, 100};
+  std::filesystem::remove(io::part_path(trial.path));
+  Child child(trial.arguments(0, kForever));
+  std::string problem;
+  const auto taken = take_snapshots(child, trial, count, problem);
+  child.kill();
+  child.finish();
+  for (const Snapshot& snapshot : taken) {
+    support::Diagnostics diagnostics;
+    const auto reader = io::TrajectoryReader::open(snapshot.path, diagnostics);
+    if (!problem.empty()) break;
+    problem = snapshot.frames < snapshot.reported ? "frames are missing"
+              : reader ? run_of(seed, trial.points).difference(*reader, snapshot.frames)
+                       : diagnostics.all().front().message;
+  }
+  if (!problem.empty()) fmt::print(stderr, "FAILED: seed {}: {}\n", seed, problem);
+  fmt::print("seed {}: {} snapshots of a run of {} frames\n", seed, taken.size(), child.frames());
+  return problem.empty() ? 0 : 1;
 }
 
 int parent(bool kills, int count, std::uint32_t seed, const std::filesystem::path& folder) {
@@ -214,11 +266,14 @@ int main(int count, char** arguments) {
     return child(words[1], run_of(seed, std::stoul(words[3])), std::stol(words[4]),
                  std::stoul(words[5]));
   }
-  if (words.size() == 4 && (words[0] == "kills" || words[0] == "limits")) {
+  const bool is_mode =
+      !words.empty() && (words[0] == "kills" || words[0] == "limits" || words[0] == "snapshots");
+  if (words.size() == 4 && is_mode) {
     auto seed = static_cast<std::uint32_t>(std::stoul(words[2]));
     if (seed == 0) seed = std::random_device{}();
+    if (words[0] == "snapshots") return snapshots(std::stoi(words[1]), seed, words[3]);
     return parent(words[0] == "kills", std::stoi(words[1]), seed, words[3]);
   }
-  fmt::print(stderr, "usage: crash_trajectory kills|limits COUNT SEED FOLDER\n");
+  fmt::print(stderr, "usage: crash_trajectory kills|limits|snapshots COUNT SEED FOLDER\n");
   return 2;
 }
