@@ -143,7 +143,8 @@ bool PatternBuilder::check_arguments(const syntax::PatternUse& use,
 void PatternBuilder::add_use(const syntax::PatternUse& use, Span span, Substitution* inside) {
   const Span place = inside ? inside->use : use.pattern.span;
   const ItemTable& items = *context_.env.items;
-  const auto item = items.find(NameSpace::Patterns, use.pattern.text, context_.n());
+  const auto item =
+      items.find(NameSpace::Patterns, use.pattern.text, context_.n(), context_.in_library);
   if (!item) {
     if (const auto other = items.find_any(NameSpace::Patterns, use.pattern.text)) {
       context_.absent(DiagnosticKind::Dimension, place,
@@ -184,25 +185,29 @@ void PatternBuilder::add_use(const syntax::PatternUse& use, Span span, Substitut
     substitution.nodes[pattern.parameters[i].text] = argument;
     node(argument);
   }
+  const bool user = std::exchange(context_.in_library, items[*item].library);
   expanding_.push_back(*item);
   add(pattern.block, &substitution);
   expanding_.pop_back();
+  context_.in_library = user;
 }
 
 void check_pattern(Environment& env, ItemIndex item, const support::SourceMap& sources) {
   ItemState& state = env.states[item];
   if (state.status != ItemStatus::Unchecked) return;
   const auto& pattern = std::get<syntax::PatternItem>((*env.items)[item].item->node);
+  const bool library = (*env.items)[item].library;
   // Patterns used inside come first, so that a mistake there is reported there.
   state.status = ItemStatus::InProgress;
   if (env.definition_depth++ < kDeepestDefinition)
     for (const syntax::PatternStatement& statement : pattern.block.statements)
       if (const auto* use = std::get_if<syntax::PatternUse>(&statement.node))
         if (const auto used =
-                env.items->find(NameSpace::Patterns, use->pattern.text, env.dimension))
+                env.items->find(NameSpace::Patterns, use->pattern.text, env.dimension, library))
           check_pattern(env, *used, sources);
   --env.definition_depth;
   ItemContext context(env, sources);
+  context.in_library = library;
   PatternBuilder builder(context, syntax::SideKind::Match);
   builder.add(pattern.block);
   const Pattern built = builder.take();

@@ -51,7 +51,8 @@ class RuleChecker {
   /// Functions and patterns for lists: their bodies are gone from checked rules.
   static void list_definitions(Environment& env) {
     for (ItemIndex i = 0; i < env.states.size(); ++i) {
-      if (env.states[i].status != ItemStatus::Present) continue;
+      if (env.states[i].status != ItemStatus::Present || !env.items->active(i, env.dimension))
+        continue;
       const ItemEntry& entry = (*env.items)[i];
       const auto* function = std::get_if<syntax::FunctionItem>(&entry.item->node);
       const auto* pattern = std::get_if<syntax::PatternItem>(&entry.item->node);

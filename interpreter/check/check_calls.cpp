@@ -114,7 +114,8 @@ ExprPtr ExprChecker::call(const syntax::CallExpr& expr, Span span) {
     if (!orbit || !check_count(expr, 1)) return make_error(span);
     return orbit_call(*orbit, expr.arguments[0], span);
   }
-  if (const auto item = context_.env.items->find(NameSpace::Functions, callee, context_.n()))
+  if (const auto item = context_.env.items->find(NameSpace::Functions, callee, context_.n(),
+                                                 context_.in_library))
     return function_call(*item, expr, span);
   if (const auto builtin = types::builtin(callee)) return builtin_call(*builtin, expr, span);
   return unknown_function(expr.callee);
@@ -281,7 +282,10 @@ ExprPtr ExprChecker::function_call(ItemIndex item, const syntax::CallExpr& expr,
                      .related = {{*uses[i], "used as a dart here"}}});
     return make_error(span);
   }
-  return expand(expr.callee, function.parameters, function.value, *given, Scope{}, span);
+  const bool caller = std::exchange(context_.in_library, (*env.items)[item].library);
+  ExprPtr value = expand(expr.callee, function.parameters, function.value, *given, Scope{}, span);
+  context_.in_library = caller;
+  return value;
 }
 
 ExprPtr ExprChecker::macro_call(const Binding& macro, const syntax::CallExpr& expr, Span span) {
@@ -344,6 +348,7 @@ void check_function(Environment& env, ItemIndex item, const support::SourceMap& 
   ItemContext context(env, sources);
   std::vector<std::optional<Span>> dart_uses(function.parameters.size());
   context.dart_uses = &dart_uses;
+  context.in_library = (*env.items)[item].library;
   for (std::size_t i = 0; i < function.parameters.size(); ++i) {
     const syntax::Name& name = function.parameters[i];
     context.declare({.name = name.text, .kind = Binding::Kind::Argument,

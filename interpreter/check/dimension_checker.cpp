@@ -33,12 +33,20 @@ void DimensionChecker::run() {
 // ---- bookkeeping --------------------------------------------------------------------------------
 
 std::vector<ItemIndex> DimensionChecker::unchecked(ItemKind kind) const {
+  // The library's texts go on using its functions and patterns when a user replaces them.
+  const bool expanded = kind == ItemKind::Function || kind == ItemKind::Pattern;
   std::vector<ItemIndex> items;
   for (ItemIndex i = 0; i < env_.states.size(); ++i)
     if ((*env_.items)[i].kind == kind && env_.states[i].status == ItemStatus::Unchecked &&
-        env_.items->active(i, env_.dimension))
+        (expanded || env_.items->active(i, env_.dimension)))
       items.push_back(i);
   return items;
+}
+
+ItemContext DimensionChecker::context_for(ItemIndex item) const {
+  ItemContext context(env_, sources_);
+  context.in_library = (*env_.items)[item].library;
+  return context;
 }
 
 void DimensionChecker::keep(ItemIndex item, ItemContext& context) {
@@ -70,7 +78,7 @@ void DimensionChecker::check_orbits() {
   for (const ItemIndex i : unchecked(ItemKind::Orbit)) {
     const ItemEntry& entry = (*env_.items)[i];
     const auto& item = std::get<syntax::OrbitItem>(entry.item->node);
-    ItemContext context(env_, sources_);
+    ItemContext context = context_for(i);
     const auto orbit = resolve_orbit(context, item.orbit);
     const auto known = library.find_orbit(item.name.text);
     if (orbit && known && *known != *orbit)
@@ -114,7 +122,7 @@ void DimensionChecker::declare_values() {
   RuleLibrary& library = *env_.library;
   for (const ItemKind kind : {ItemKind::Embedding, ItemKind::Derived})
     for (const ItemIndex i : unchecked(kind)) {
-      ItemContext context(env_, sources_);
+      ItemContext context = context_for(i);
       gmap::EmbeddingDecl value = declare_value(context, (*env_.items)[i]);
       if (!context.good()) {
         keep(i, context);
@@ -127,6 +135,7 @@ void DimensionChecker::declare_values() {
     }
   for (const ItemIndex i : unchecked(ItemKind::Interaction)) {
     auto draft = std::make_unique<InteractionDraft>(i, env_, sources_);
+    draft->context.in_library = (*env_.items)[i].library;
     declare_interaction(*draft);
     if (!draft->context.good()) {
       keep(i, draft->context);
@@ -143,7 +152,7 @@ void DimensionChecker::declare_values() {
 
 void DimensionChecker::declare_families() {
   for (const ItemIndex i : unchecked(ItemKind::Family)) {
-    ItemContext context(env_, sources_);
+    ItemContext context = context_for(i);
     Family family = check_family(context, (*env_.items)[i]);
     const bool good = context.good();
     keep(i, context);
@@ -156,7 +165,7 @@ void DimensionChecker::declare_families() {
 void DimensionChecker::complete_values() {
   gmap::EmbeddingSchema& schema = env_.library->schema;
   for (const auto& [item, id] : declared_) {
-    ItemContext context(env_, sources_);
+    ItemContext context = context_for(item);
     complete_value(context, (*env_.items)[item], schema[id]);
     keep(item, context);
   }
@@ -212,7 +221,7 @@ void DimensionChecker::reset_values() {
 void DimensionChecker::check_rules() {
   for (const ItemIndex i : unchecked(ItemKind::Rule)) {
     const ItemEntry& entry = (*env_.items)[i];
-    ItemContext context(env_, sources_);
+    ItemContext context = context_for(i);
     Rule rule = check_rule(context, entry);
     if (context.good() && check_topology(rule, context.diagnostics))
       check_rule_embeddings(rule, entry, files_, env_.library->schema, context.diagnostics);
@@ -253,7 +262,7 @@ void DimensionChecker::check_criteria() {
   for (const ItemIndex i : unchecked(ItemKind::Criterion)) {
     const ItemEntry& entry = (*env_.items)[i];
     const auto& item = std::get<syntax::CriterionItem>(entry.item->node);
-    ItemContext context(env_, sources_);
+    ItemContext context = context_for(i);
     const InteractionDraft* of = item.interaction ? draft_of(*item.interaction, context) : nullptr;
     if (item.interaction && !of) {
       keep(i, context);
@@ -280,7 +289,7 @@ void DimensionChecker::check_operation_after_its_parts(ItemIndex i, int depth) {
        applied_names(std::get<syntax::OperationItem>(entry.item->node)))
     if (const auto part = env_.items->find(NameSpace::Operations, name->text, env_.dimension))
       check_operation_after_its_parts(*part, depth + 1);
-  ItemContext context(env_, sources_);
+  ItemContext context = context_for(i);
   Operation operation = check_operation(context, entry);
   const bool good = context.good();
   keep(i, context);

@@ -46,6 +46,7 @@ class DimensionChecker {
   void check_operation_after_its_parts(ItemIndex item, int depth);
   [[nodiscard]] const InteractionDraft* draft_of(const syntax::Name& name, ItemContext& context);
   [[nodiscard]] std::vector<ItemIndex> unchecked(ItemKind kind) const;
+  [[nodiscard]] ItemContext context_for(ItemIndex item) const;
   void keep(ItemIndex item, ItemContext& context);
 
   Environment& env_;

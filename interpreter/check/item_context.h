@@ -34,6 +34,7 @@ class ItemContext {
   bool poisoned = false;  ///< refers to something that was reported elsewhere
 
   // What the place allows.
+  bool in_library = false;         ///< the text is the library's
   bool allow_all = false;          ///< `all ORBIT`
   bool allow_forces = true;        ///< force_on, forces
   ExprPtr bare_dart;               ///< a bare embedding is read here

@@ -130,14 +130,17 @@ bool ItemTable::accept(const ItemEntry& entry, support::Diagnostics& diagnostics
 }
 
 std::optional<ItemIndex> ItemTable::find(NameSpace space, const std::string& name,
-                                         int dimension) const {
+                                         int dimension, bool from_library) const {
+  const bool expanded = space == NameSpace::Functions || space == NameSpace::Patterns;
+  const bool prefer_library = from_library && expanded;
   const auto bucket = by_name_.find({space, name});
   if (bucket == by_name_.end()) return std::nullopt;
   std::optional<ItemIndex> found;
   for (const ItemIndex i : bucket->second) {
     const ItemEntry& entry = entries_[i];
     if (entry.dimension && *entry.dimension != dimension) continue;
-    if (!found || (entries_[*found].library && !entry.library)) found = i;
+    if (!found || (entries_[*found].library != entry.library && entry.library == prefer_library))
+      found = i;
   }
   return found;
 }

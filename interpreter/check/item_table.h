@@ -48,12 +48,13 @@ class ItemTable {
 
   [[nodiscard]] const std::vector<ItemEntry>& entries() const { return entries_; }
   [[nodiscard]] const ItemEntry& operator[](ItemIndex i) const { return entries_[i]; }
-  /// The item meant by a name in one dimension; a user's before the library's.
+  /// The item meant by a name in one dimension; a user's before the library's. Texts of the library
+  /// (`from_library`) keep the library's own functions and patterns, which are expanded in place.
   [[nodiscard]] std::optional<ItemIndex> find(NameSpace space, const std::string& name,
-                                              int dimension) const;
+                                              int dimension, bool from_library = false) const;
   /// Whether there is an item of this name in some dimension, for the wording of messages.
   [[nodiscard]] std::optional<ItemIndex> find_any(NameSpace space, const std::string& name) const;
-  /// Whether the item is the one that its name means.
+  /// Whether the item is the one that its name means in a user's text.
   [[nodiscard]] bool active(ItemIndex i, int dimension) const;
   [[nodiscard]] std::vector<std::string> names(NameSpace space) const;
 

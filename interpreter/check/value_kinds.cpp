@@ -85,6 +85,7 @@ void check_weight(Environment& env, const support::SourceMap& sources,
                   gmap::EmbeddingDecl& declaration, ItemContext& report_to) {
   if (!kind.split || kind.kind != syntax::KindClause::Kind::Extensive) return;
   ItemContext context(env, sources);
+  context.in_library = report_to.in_library;
   context.bare_dart =
       context.declare_slot(dart, Binding::Kind::Node, {ValueKind::Dart});
   ExprChecker checker(context);

@@ -134,21 +134,25 @@ TEST_CASE("a library comes from a folder, module by module") {
   CHECK(wrong.diagnostics.all()[0].help == "did you mean `tear`?");
 }
 
-TEST_CASE("a user's item takes the place of the library's with a warning") {
+TEST_CASE("a user's function takes the place of the library's in user texts, with a warning") {
   const Folder folder;
   folder.write("lib/particles.rule",
                "function half(a) = 0.5; rule r(a) { left { a; } where half(a) > 0.4; }");
-  const auto mine = folder.write("mine.rule", "function half(a) = 0.25;");
+  const auto mine = folder.write("mine.rule", "function half(a) = 0.25;"
+                                 "rule own(a) { left { a; } where half(a) > 0.4; }");
   gmsim::check::LibraryOptions options;
   options.stdlib_folder = folder.path() / "lib";
   const Run checked = run({mine}, options);
   CHECK_FALSE(checked.diagnostics.has_errors());
   REQUIRE(checked.diagnostics.all().size() == 1);
   CHECK(checked.diagnostics.all()[0].kind == DiagnosticKind::Shadowing);
-  // The library's own rule reads it too.
+  // What the library says about itself stays true.
   const auto* rule = checked.rules.in(2).find_rule("r");
   REQUIRE(rule != nullptr);
-  CHECK_FALSE(rule->steps[0].value->value.as_bool());
+  CHECK(rule->steps[0].value->value.as_bool());
+  const auto* own = checked.rules.in(2).find_rule("own");
+  REQUIRE(own != nullptr);
+  CHECK_FALSE(own->steps[0].value->value.as_bool());
 }
 
 TEST_CASE("a library file that is given itself takes its own place") {
