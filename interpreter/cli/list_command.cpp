@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -211,12 +212,40 @@ void print_plain(const Entries& entries, std::ostream& out) {
   }
 }
 
+/// A documentation block as a page shows it: what stands under `Usage:` as code, and without the
+/// tests under `Test:`.
+std::string page_text(const std::string& doc) {
+  enum class Part { Text, Usage, Test } part = Part::Text;
+  std::string text;
+  std::istringstream lines(doc);
+  for (std::string line; std::getline(lines, line);) {
+    const bool indented = line.empty() || line.starts_with("  ");
+    if (part == Part::Usage && !indented) text += "```\n";
+    if (!indented) part = Part::Text;
+    if (line.starts_with("Test:")) part = Part::Test;
+    if (part == Part::Test) continue;
+    if (line.starts_with("Usage:")) {
+      part = Part::Usage;
+      const std::string rest = line.size() > 8 ? line.substr(8) + '\n' : "";
+      text += "Usage:\n\n```\n" + rest;
+      continue;
+    }
+    if (part == Part::Usage && line.empty()) {
+      text += "```\n";
+      part = Part::Text;
+    }
+    text += line + '\n';
+  }
+  if (part == Part::Usage) text += "```\n";
+  return text;
+}
+
 void print_markdown(const Entries& entries, const std::string& title, std::ostream& out) {
   out << "# " << title << "\n";
   for (const Entry& entry : entries) {
     out << "\n## `" << entry.name << "`\n\n";
     if (!entry.signature.empty()) out << "`" << entry.name << ' ' << entry.signature << "`\n\n";
-    if (!entry.doc.empty()) out << entry.doc << '\n';
+    if (!entry.doc.empty()) out << page_text(entry.doc);
   }
 }
 
