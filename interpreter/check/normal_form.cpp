@@ -43,6 +43,8 @@ int NormalForms::of(const Expr& expr, std::optional<std::uint8_t> position) {
   locals_.clear();
   done_.clear();
   work_ = 0;
+  open_folds_ = 0;
+  walked_ = 0;
   for (const Step& step : steps_)
     if (step.kind == Step::Kind::Let) bind(step.slot, evaluate(*step.value));
   const Form form = evaluate(expr);
@@ -206,27 +208,50 @@ NormalForms::Collection NormalForms::collection(const Expr& expr) {
               std::to_string(id(number(*expr.args.at(1))))};
     case ExprKind::Polygon: {
       const auto [from, reversed] = darts_.around_face(dart(*expr.args.at(0)));
-      return {"polygon " + std::to_string(id(from)), reversed};
+      return {"polygon " + std::to_string(id(from)), true, reversed};
     }
     default:
       return {"collection " + std::to_string(id(evaluate(expr)))};
   }
 }
 
-NormalForms::Form NormalForms::bound_variable(const Expr& fold_expr, bool reversed) const {
-  const std::uint32_t slot = types::index(fold_expr.slot);
-  const ValueKind kind = fold_expr.args.at(0)->type.kind;
-  if (kind == ValueKind::Range || kind == ValueKind::Forces) {
-    // Numbered below the atoms, by slot, so that it needs no entry among them.
-    const int variable = -1 - static_cast<int>(slot);
-    return {Form::Kind::Number,
-            kind == ValueKind::Range ? Sum{{Product{{variable}, {}}, 1.0}}
-                                     : Sum{{Product{{}, {variable}}, 1.0}},
-            {},
-            {}};
+NormalForms::Form NormalForms::variable(ValueKind collection, const Word& walk) const {
+  if (collection == ValueKind::Range || collection == ValueKind::Forces) {
+    // Below the numbers of atoms, so that it needs no entry among them.
+    const int number = -1 - static_cast<int>(open_folds_);
+    const Product product =
+        collection == ValueKind::Range ? Product{{number}, {}} : Product{{}, {number}};
+    return {Form::Kind::Number, {{product, 1.0}}, {}, {}};
   }
-  const SymbolicDart dart = darts_.other(~slot);
-  return {Form::Kind::Dart, {}, reversed ? darts_.walk(dart, 0) : dart, {}};
+  SymbolicDart dart = darts_.other(~open_folds_);
+  for (const std::uint8_t i : walk) dart = darts_.walk(std::move(dart), i);
+  return {Form::Kind::Dart, {}, std::move(dart), {}};
+}
+
+/// The body over the variable; around a face over the one of three neighbours from which it reads
+/// what is nearest, since a sum around a face is the same from every corner.
+Sum NormalForms::fold_body(const Expr& expr, const Collection& over) {
+  const ValueKind kind = expr.args[0]->type.kind;
+  std::vector<Word> walks{{}};
+  if (over.around_face)
+    walks = over.reversed ? std::vector<Word>{{0}, {1}, {0, 1, 0}}
+                          : std::vector<Word>{{}, {0, 1}, {1, 0}};
+  const std::size_t walked_before = walked_;
+  Sum best;
+  std::pair<std::size_t, int> least{};
+  for (const Word& walk : walks) {
+    walked_ = 0;
+    bind(expr.slot, variable(kind, walk));
+    ++open_folds_;
+    Sum body = number(*expr.args[1]);
+    --open_folds_;
+    const std::pair<std::size_t, int> cost{walked_, id(body)};
+    if (&walk != &walks.front() && cost >= least) continue;
+    least = cost;
+    best = std::move(body);
+  }
+  walked_ = walked_before + least.first;
+  return best;
 }
 
 NormalForms::Form NormalForms::fold(const Expr& expr) {
@@ -235,15 +260,16 @@ NormalForms::Form NormalForms::fold(const Expr& expr) {
   // Ties go to the first, and where a polygon begins depends on the dart that names it.
   if (picks && expr.args[0]->kind == ExprKind::Polygon)
     over = {"polygon from " + std::to_string(id(dart(*expr.args[0]->args.at(0))))};
-  bind(expr.slot, bound_variable(expr, over.reversed));
   const std::string head = "fold " + std::to_string(static_cast<int>(expr.fold)) + " " +
-                           std::to_string(types::index(expr.slot)) + " " +
-                           std::to_string(intern(over.key)) + " ";
+                           std::to_string(open_folds_) + " " + std::to_string(intern(over.key)) +
+                           " ";
   if (expr.args.size() == 1) return {Form::Kind::Number, atom(head, expr), {}, {}};
-  const Sum body = number(*expr.args[1]);
+  const Sum body = fold_body(expr, over);
   if (picks) {
-    const std::string key = head + std::to_string(id(body)) + " " +
-                            std::to_string(id(evaluate(*expr.args.at(2))));
+    ++open_folds_;
+    const int result = id(evaluate(*expr.args.at(2)));
+    --open_folds_;
+    const std::string key = head + std::to_string(id(body)) + " " + std::to_string(result);
     if (expr.type.kind == ValueKind::Dart)
       return {Form::Kind::Dart, {}, darts_.other(static_cast<std::uint32_t>(intern(key))), {}};
     return {Form::Kind::Number, atom(key, expr), {}, {}};
@@ -273,6 +299,7 @@ int NormalForms::intern(const std::string& key) {
 }
 
 int NormalForms::id(const SymbolicDart& dart) {
+  if (!dart.of_match) walked_ += dart.walk.size();
   std::string key = (dart.of_match ? "dart " : "other ") + std::to_string(dart.base) + " ";
   for (const std::uint8_t position : dart.rows) key += static_cast<char>('0' + position);
   key += "@";

@@ -46,6 +46,7 @@ class NormalForms {
  private:
   struct Collection {
     std::string key;
+    bool around_face = false;
     bool reversed = false;  ///< go over x@0 for every x of the collection that `key` names
   };
   /// What an expression or a local stands for: exactly one of the three.
@@ -68,7 +69,9 @@ class NormalForms {
   Sum component(const Expr& expr);
   Sum comparison(const Expr& expr);
   Collection collection(const Expr& expr);
-  Form bound_variable(const Expr& fold_expr, bool reversed) const;
+  /// Variables are numbered by how many folds stand around, not by their names.
+  Form variable(types::ValueKind collection, const Word& walk) const;
+  Sum fold_body(const Expr& expr, const Collection& over);
   void bind(types::Slot slot, Form form);
 
   Sum number(const Expr& expr) { return evaluate(expr).sum; }
@@ -100,6 +103,8 @@ class NormalForms {
   std::unordered_map<std::uint32_t, Form> locals_;
   std::unordered_map<const Expr*, Form> done_;
   int work_ = 0;
+  std::uint32_t open_folds_ = 0;
+  std::size_t walked_ = 0;  ///< links between variables and the darts named from them
 };
 
 }  // namespace gmsim::check
