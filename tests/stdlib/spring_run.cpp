@@ -51,6 +51,18 @@ void SpringRun::find_matches(const YAML::Node& parameters, const YAML::Node& whe
       });
   if (error) throw std::runtime_error(error->message);
   for (Found& found : matches_) found.parameters = parameters_at(found.dart, parameters);
+  store_parameters();
+}
+
+/// Criteria read the parameters where the engine keeps them.
+void SpringRun::store_parameters() {
+  engine::State& state = block_.state();
+  for (std::size_t i = 0; i < item_.parameters.size(); ++i) {
+    const auto id = item_.parameters[i].embedding.value();
+    state.use(id);
+    for (const Found& found : matches_)
+      state.store.set(id, found.dart, found.parameters[i].second.data);
+  }
 }
 
 engine::Arguments SpringRun::parameters_at(DartId dart, const YAML::Node& given) {

@@ -31,6 +31,7 @@ class SpringRun {
     engine::Arguments parameters;
   };
   void find_matches(const YAML::Node& parameters, const YAML::Node& where);
+  void store_parameters();
   [[nodiscard]] engine::Arguments parameters_at(types::DartId dart, const YAML::Node& given);
   /// Runs `visit` with nodes, parameters and lets in place.
   template <class Visit>

@@ -3,8 +3,9 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <set>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "stdlib/block_run.h"
 
@@ -25,6 +26,16 @@ void run_all(engine::MatcherKind matcher) {
 
 TEST_CASE("the test blocks of the library hold") { run_all(engine::MatcherKind::Planned); }
 TEST_CASE("the test blocks hold with the naive matcher") { run_all(engine::MatcherKind::Naive); }
+
+TEST_CASE("every file of the library has a place in its README") {
+  std::ifstream in("stdlib-rules/README.md");
+  const std::string readme{std::istreambuf_iterator<char>(in), {}};
+  for (const auto& entry : std::filesystem::recursive_directory_iterator("stdlib-rules")) {
+    if (entry.path().extension() != ".rule") continue;
+    const auto name = std::filesystem::relative(entry.path(), "stdlib-rules").string();
+    CHECK_MESSAGE(readme.find("`" + name + "`") != std::string::npos, name);
+  }
+}
 
 TEST_CASE("the runner notices what does not hold") {
   const auto broken = [](const std::string& text) {
