@@ -56,6 +56,29 @@ void DimensionChecker::keep(ItemIndex item, ItemContext& context) {
   state.status = state.absence                         ? ItemStatus::Absent
                  : context.poisoned || state.diagnostics.has_errors() ? ItemStatus::Failed
                                                                       : ItemStatus::Present;
+  if (state.status == ItemStatus::Failed && (*env_.items)[item].library) leave_unfitting(item);
+}
+
+/// Where a user's value has taken the place of one of the library's, library items that do not fit
+/// it are no mistake of the user: they are absent.
+void DimensionChecker::leave_unfitting(ItemIndex item) {
+  const auto is_value = [](ItemKind kind) {
+    return kind == ItemKind::Embedding || kind == ItemKind::Derived ||
+           kind == ItemKind::Interaction || kind == ItemKind::Family;
+  };
+  for (ItemIndex i = 0; i < env_.states.size(); ++i) {
+    const ItemEntry& entry = (*env_.items)[i];
+    if (!entry.library || !is_value(entry.kind) || env_.items->active(i, env_.dimension)) continue;
+    ItemState& state = env_.states[item];
+    state.status = ItemStatus::Absent;
+    state.diagnostics = {};
+    state.absence = support::Diagnostic{
+        .kind = DiagnosticKind::Shadowing,
+        .message = "it does not fit the `" + entry.name->text +
+                   "` that takes the place of the library's",
+        .place = (*env_.items)[item].name->span};
+    return;
+  }
 }
 
 void DimensionChecker::mark_other_dimensions() {

@@ -48,6 +48,7 @@ class DimensionChecker {
   [[nodiscard]] std::vector<ItemIndex> unchecked(ItemKind kind) const;
   [[nodiscard]] ItemContext context_for(ItemIndex item) const;
   void keep(ItemIndex item, ItemContext& context);
+  void leave_unfitting(ItemIndex item);
 
   Environment& env_;
   const LoadedRules& files_;

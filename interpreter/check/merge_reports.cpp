@@ -6,6 +6,7 @@
 
 namespace gmsim::check {
 using support::Diagnostic;
+using support::DiagnosticKind;
 namespace {
 
 using States = std::array<const ItemState*, 3>;
@@ -86,10 +87,10 @@ Absences merge_reports(const ItemTable& items, const std::array<Environment, 3>&
     const States states = {&environments[0].states[i], &environments[1].states[i],
                            &environments[2].states[i]};
     const std::vector<int> dimensions = decisive(entry, states);
-    if (dimensions.empty())
-      diagnostics.report(best_absence(entry, states));
-    else
+    if (!dimensions.empty())
       report(states, dimensions, diagnostics);
+    else if (best_absence(entry, states).kind != DiagnosticKind::Shadowing)
+      diagnostics.report(best_absence(entry, states));
     std::array<std::string, 3> reasons;
     bool any = false;
     for (std::size_t d = 0; d < 3; ++d) {
