@@ -13,15 +13,26 @@ namespace {
 
 using support::DiagnosticKind;
 
-/// A whole number that fits; 0, with an error, if it does not.
-int read_int(ParseContext& context, std::string_view text, Span span) {
+/// The whole number at a place, if it fits; else 0, with an error.
+int read_int(ParseContext& context, Span number) {
+  const std::string_view text = context.text(number);
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && end == text.data() + text.size()) return value;
   context.report({.kind = DiagnosticKind::BadNumber,
                   .message = fmt::format("`{}` is too large here", shortened(text)),
-                  .place = span});
+                  .place = number});
   return 0;
+}
+
+/// What a string literal stands for; its escapes have been checked by the scanner.
+std::string unescape(std::string_view literal) {
+  std::string text;
+  for (std::size_t i = 1; i + 1 < literal.size(); ++i) {
+    if (literal[i] == '\\' && i + 2 < literal.size()) ++i;
+    text += literal[i];
+  }
+  return text;
 }
 
 template <class Node>
@@ -39,8 +50,8 @@ void report_repeated(ParseContext& context, Span span, std::string_view clause) 
 
 // ---- items --------------------------------------------------------------------------------------
 
-Item make_import(ParseContext& context, Span span, std::string path, Span path_span) {
-  return finish_item(context, span, ImportItem{std::move(path), path_span});
+Item make_import(ParseContext& context, Span span, Span path_span) {
+  return finish_item(context, span, ImportItem{unescape(context.text(path_span)), path_span});
 }
 
 Item make_item(ParseContext& context, Span span, DimensionStatement dimension) {
@@ -180,13 +191,12 @@ Statement make_force(Span span, Name target, ExprPtr collection, OrbitExpr orbit
                                std::move(value)}};
 }
 
-DimensionStatement make_dimension_statement(ParseContext& context, Span span,
-                                            const std::string& text, Span text_span) {
-  const int dimension = read_int(context, text, text_span);
+DimensionStatement make_dimension_statement(ParseContext& context, Span span, Span number) {
+  const int dimension = read_int(context, number);
   if (dimension < 1 || dimension > 3)
     context.report({.kind = DiagnosticKind::Dimension,
                     .message = "the dimension of a map is 1, 2 or 3",
-                    .place = text_span});
+                    .place = number});
   return {dimension, span};
 }
 
@@ -203,42 +213,42 @@ Chain extend_chain(Chain chain, Link link, NodeMention node) {
 }
 
 std::vector<LinkDimension> add_step(ParseContext& context, std::vector<LinkDimension> path,
-                                    const std::string& text, Span span) {
-  if (text.find_first_not_of("0123456789.") != std::string::npos) {
+                                    Span number) {
+  const std::string_view text = context.text(number);
+  if (text.find_first_not_of("0123456789.") != std::string_view::npos) {
     context.report({.kind = DiagnosticKind::BadNumber,
                     .message = fmt::format("`{}` is no path of links", shortened(text)),
-                    .place = span});
+                    .place = number});
     return path;
   }
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('.', begin), text.size());
-    const Span part{span.file, span.begin + static_cast<std::uint32_t>(begin),
-                    span.begin + static_cast<std::uint32_t>(end)};
-    path.push_back(make_dimension(context, part, text.substr(begin, end - begin)));
+    path.push_back(
+        make_dimension(context, {number.file, number.begin + static_cast<std::uint32_t>(begin),
+                                 number.begin + static_cast<std::uint32_t>(end)}));
     begin = end + 1;
   }
   return path;
 }
 
 std::vector<LinkDimension> lower_top(ParseContext& context, std::vector<LinkDimension> path,
-                                     const std::string& text, Span span) {
+                                     Span number) {
   const LinkDimension top = path.back();
   path.pop_back();
   const std::size_t first = path.size();
-  path = add_step(context, std::move(path), text, span);
+  path = add_step(context, std::move(path), number);
   if (first == path.size()) return append(std::move(path), top);  // reported
   path[first].from_top = true;
   path[first].span = join(top.span, path[first].span);
   return path;
 }
 
-LinkDimension make_dimension(ParseContext& context, Span span, const std::string& text) {
-  return {false, read_int(context, text, span), span};
+LinkDimension make_dimension(ParseContext& context, Span number) {
+  return {false, read_int(context, number), number};
 }
 
-LinkDimension make_dimension_below_top(ParseContext& context, Span span, const std::string& text,
-                                       Span text_span) {
-  return {true, read_int(context, text, text_span), span};
+LinkDimension make_dimension_below_top(ParseContext& context, Span span, Span number) {
+  return {true, read_int(context, number), span};
 }
 
 OrbitExpr make_named_orbit(Name name) {
@@ -265,16 +275,16 @@ TypeExpr make_type(Name name) {
   return {std::move(name), {}, std::nullopt, span};
 }
 
-TypeExpr add_extent(ParseContext& context, TypeExpr type, const std::string& text, Span span) {
+TypeExpr add_extent(ParseContext& context, TypeExpr type, Span number) {
   const bool after_unit = !type.extents.empty() && type.extents.back() < 2;
-  const int extent = read_int(context, text, span);
+  const int extent = read_int(context, number);
   if (extent == 0 || after_unit)
     context.report({.kind = DiagnosticKind::BadNumber,
                     .message = "the length of an array is at least 2",
-                    .place = span,
+                    .place = number,
                     .help = "`[1]`, the unit of plain numbers, stands last"});
   type.extents.push_back(static_cast<std::uint32_t>(extent));
-  type.span = join(type.span, span);
+  type.span = join(type.span, number);
   return type;
 }
 
@@ -293,13 +303,13 @@ TypeExpr finish_type(ParseContext& context, Span span, TypeExpr type,
   return type;
 }
 
-UnitExpr make_plain_unit(ParseContext& context, Span span, const std::string& text) {
-  if (text != "1")
+UnitExpr make_plain_unit(ParseContext& context, Span number) {
+  if (const std::string_view text = context.text(number); text != "1")
     context.report({.kind = DiagnosticKind::Syntax,
                     .message = fmt::format("`{}` is no unit; plain numbers have the unit `[1]`",
                                            shortened(text)),
-                    .place = span});
-  return {{}, span};
+                    .place = number});
+  return {{}, number};
 }
 
 UnitExpr divide_unit(Span span, std::vector<UnitFactor> above, std::vector<UnitFactor> below) {
@@ -310,9 +320,8 @@ UnitExpr divide_unit(Span span, std::vector<UnitFactor> above, std::vector<UnitF
   return {std::move(above), span};
 }
 
-UnitExpr invert_unit(ParseContext& context, Span span, const std::string& one, Span one_span,
-                     std::vector<UnitFactor> below) {
-  make_plain_unit(context, one_span, one);
+UnitExpr invert_unit(ParseContext& context, Span span, Span one, std::vector<UnitFactor> below) {
+  make_plain_unit(context, one);
   return divide_unit(span, {}, std::move(below));
 }
 
@@ -325,14 +334,14 @@ UnitExpr reject_unit(ParseContext& context, Span span, std::vector<UnitFactor> a
   return divide_unit(span, std::move(above), append_all(std::move(below), std::move(tail)));
 }
 
-UnitFactor raise_unit(ParseContext& context, Name name, int sign, const std::string& numerator,
-                      Span numerator_span, const std::string& denominator, Span denominator_span) {
-  const int above = read_int(context, numerator, numerator_span);
-  const int below = read_int(context, denominator, denominator_span);
+UnitFactor raise_unit(ParseContext& context, Name name, int sign, Span numerator,
+                      std::optional<Span> denominator) {
+  const int above = read_int(context, numerator);
+  const int below = denominator ? read_int(context, *denominator) : 1;
   if (below == 0)
     context.report({.kind = DiagnosticKind::BadNumber,
                     .message = "an exponent divided by zero",
-                    .place = denominator_span});
+                    .place = denominator});
   return {std::move(name), sign * above, below};
 }
 

@@ -10,7 +10,8 @@
 #include "syntax/boxed.h"
 
 /// What the actions of grammar/rule_parser.yy call: one function for each shape of node. Those
-/// that take the ParseContext can report errors, or find the `///` lines above an item.
+/// that take the ParseContext can report errors, read what is written at a place, or find the
+/// `///` lines above an item.
 namespace gmsim::syntax {
 
 class ParseContext;
@@ -63,7 +64,7 @@ std::vector<T> append_all(std::vector<T> list, std::vector<T> more) {
 
 // ---- items --------------------------------------------------------------------------------------
 
-Item make_import(ParseContext& context, Span span, std::string path, Span path_span);
+Item make_import(ParseContext& context, Span span, Span path_span);
 Item make_item(ParseContext& context, Span span, DimensionStatement dimension);
 Item make_orbit_item(ParseContext& context, Span span, Name name, OrbitExpr orbit);
 Item make_embedding(ParseContext& context, Span span, Name name, TypeExpr type, OrbitExpr orbit,
@@ -106,8 +107,7 @@ Statement make_macro(Span span, Name name, std::vector<Name> parameters, ExprPtr
 Statement make_force(Span span, std::vector<Name> targets, OrbitExpr orbit, ExprPtr value);
 Statement make_force(Span span, Name target, ExprPtr collection, OrbitExpr orbit, ExprPtr value);
 /// A map has dimension 1, 2 or 3.
-DimensionStatement make_dimension_statement(ParseContext& context, Span span,
-                                            const std::string& text, Span text_span);
+DimensionStatement make_dimension_statement(ParseContext& context, Span span, Span number);
 
 // ---- patterns and orbits ------------------------------------------------------------------------
 
@@ -115,13 +115,12 @@ Chain begin_chain(NodeMention node);
 Chain extend_chain(Chain chain, Link link, NodeMention node);
 /// Adds the dimensions of a piece of a path: `0`, or `0.1`, which reads as a number.
 std::vector<LinkDimension> add_step(ParseContext& context, std::vector<LinkDimension> path,
-                                    const std::string& text, Span span);
+                                    Span number);
 /// Turns the `n` at the end of a path into `n-1`, or, since a number can hold a dot, into `n-1.0`.
 std::vector<LinkDimension> lower_top(ParseContext& context, std::vector<LinkDimension> path,
-                                     const std::string& text, Span span);
-LinkDimension make_dimension(ParseContext& context, Span span, const std::string& text);
-LinkDimension make_dimension_below_top(ParseContext& context, Span span, const std::string& text,
-                                       Span text_span);
+                                     Span number);
+LinkDimension make_dimension(ParseContext& context, Span number);
+LinkDimension make_dimension_below_top(ParseContext& context, Span span, Span number);
 OrbitExpr make_named_orbit(Name name);
 OrbitEntry make_blank(Span span);
 OrbitEntry make_single(Span span, LinkDimension dimension);
@@ -130,16 +129,15 @@ OrbitEntry make_range(Span span, LinkDimension first, LinkDimension last);
 // ---- types and units ----------------------------------------------------------------------------
 
 TypeExpr make_type(Name name);
-TypeExpr add_extent(ParseContext& context, TypeExpr type, const std::string& text, Span span);
+TypeExpr add_extent(ParseContext& context, TypeExpr type, Span number);
 /// Array lengths are at least 2; `[1]` at the end is the unit of plain numbers.
 TypeExpr finish_type(ParseContext& context, Span span, TypeExpr type,
                      std::optional<UnitExpr> unit = std::nullopt);
 /// `[1]`.
-UnitExpr make_plain_unit(ParseContext& context, Span span, const std::string& text);
+UnitExpr make_plain_unit(ParseContext& context, Span number);
 UnitExpr divide_unit(Span span, std::vector<UnitFactor> above, std::vector<UnitFactor> below);
 /// `[1/s]`.
-UnitExpr invert_unit(ParseContext& context, Span span, const std::string& one, Span one_span,
-                     std::vector<UnitFactor> below);
+UnitExpr invert_unit(ParseContext& context, Span span, Span one, std::vector<UnitFactor> below);
 /// `[N/m s]`: reported, and read as `[N/(m s)]`.
 UnitExpr reject_unit(ParseContext& context, Span span, std::vector<UnitFactor> above,
                      std::vector<UnitFactor> below, std::vector<UnitFactor> tail);
@@ -147,20 +145,19 @@ inline UnitExpr reject_unit(ParseContext& context, Span span, std::vector<UnitFa
                             UnitFactor below, std::vector<UnitFactor> tail) {
   return reject_unit(context, span, std::move(above), list_of(std::move(below)), std::move(tail));
 }
-UnitFactor raise_unit(ParseContext& context, Name name, int sign, const std::string& numerator,
-                      Span numerator_span, const std::string& denominator = "1",
-                      Span denominator_span = {});
+UnitFactor raise_unit(ParseContext& context, Name name, int sign, Span numerator,
+                      std::optional<Span> denominator = std::nullopt);
 
 // ---- expressions --------------------------------------------------------------------------------
 
-ExprPtr make_number(ParseContext& context, Span span, std::string text, bool is_integer,
-                    std::optional<UnitExpr> unit, Span text_span);
-inline ExprPtr make_number(ParseContext& context, Span span, std::string text, bool is_integer) {
-  return make_number(context, span, std::move(text), is_integer, std::nullopt, span);
+ExprPtr make_number(ParseContext& context, Span span, bool is_integer, Span number,
+                    std::optional<UnitExpr> unit);
+inline ExprPtr make_number(ParseContext& context, Span span, bool is_integer) {
+  return make_number(context, span, is_integer, span, std::nullopt);
 }
 ExprPtr make_bool(ParseContext& context, Span span, bool value);
 ExprPtr make_top(ParseContext& context, Span span);
-ExprPtr make_name_expr(ParseContext& context, Span span, Name name);
+ExprPtr make_name_expr(ParseContext& context, Name name);
 ExprPtr make_member(ParseContext& context, Span span, ExprPtr object, Name member);
 ExprPtr make_walk(ParseContext& context, Span span, ExprPtr object, LinkDimension dimension);
 ExprPtr make_index(ParseContext& context, Span span, ExprPtr object, ExprPtr index);

@@ -7,7 +7,7 @@
 namespace gmsim::syntax {
 
 /// A large value on its way through the parser, whose stack has room for the largest of its values
-/// in every place: boxing the few large ones keeps it small.
+/// in every place: boxing the few large ones keeps it small. Only to be read once it has a value.
 template <class T>
 class Boxed {
  public:

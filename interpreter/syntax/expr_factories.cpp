@@ -44,17 +44,17 @@ ExprPtr make_expr(ParseContext& context, Span span, Node node, std::uint16_t par
 
 }  // namespace
 
-ExprPtr make_number(ParseContext& context, Span span, std::string text, bool is_integer,
-                    std::optional<UnitExpr> unit, Span text_span) {
-  NumberExpr number{std::move(text), 0, is_integer, std::move(unit)};
-  const char* begin = number.text.data();
-  const auto [end, error] = std::from_chars(begin, begin + number.text.size(), number.value);
+ExprPtr make_number(ParseContext& context, Span span, bool is_integer, Span number,
+                    std::optional<UnitExpr> unit) {
+  NumberExpr node{std::string(context.text(number)), 0, is_integer, std::move(unit)};
+  const char* begin = node.text.data();
+  const auto [end, error] = std::from_chars(begin, begin + node.text.size(), node.value);
   if (error == std::errc::result_out_of_range)
-    context.report({.kind = DiagnosticKind::BadNumber,
-                    .message = fmt::format("`{}` is outside of what a number can hold",
-                                           shortened(number.text)),
-                    .place = text_span});
-  return make_expr(context, span, std::move(number));
+    context.report(
+        {.kind = DiagnosticKind::BadNumber,
+         .message = fmt::format("`{}` is outside of what a number can hold", shortened(node.text)),
+         .place = number});
+  return make_expr(context, span, std::move(node));
 }
 
 ExprPtr make_bool(ParseContext& context, Span span, bool value) {
@@ -65,7 +65,8 @@ ExprPtr make_top(ParseContext& context, Span span) {
   return make_expr(context, span, DimensionExpr{});
 }
 
-ExprPtr make_name_expr(ParseContext& context, Span span, Name name) {
+ExprPtr make_name_expr(ParseContext& context, Name name) {
+  const Span span = name.span;
   return make_expr(context, span, NameExpr{std::move(name)});
 }
 

@@ -8,23 +8,8 @@
 #include "syntax/syntax_error.h"
 
 namespace gmsim::syntax {
-namespace {
-
 using support::Diagnostic;
 using support::DiagnosticKind;
-using token = RuleParser::token;
-
-/// What a string literal stands for; its escapes have been checked by the scanner.
-std::string unescape(std::string_view literal) {
-  std::string text;
-  for (std::size_t i = 1; i + 1 < literal.size(); ++i) {
-    if (literal[i] == '\\' && i + 2 < literal.size()) ++i;
-    text += literal[i];
-  }
-  return text;
-}
-
-}  // namespace
 
 ParseContext::ParseContext(const support::SourceMap& sources, support::FileId file,
                            support::Diagnostics& diagnostics, RuleParser::token_kind_type start)
@@ -37,13 +22,7 @@ ParseContext::ParseContext(const support::SourceMap& sources, support::FileId fi
 
 RuleParser::symbol_type ParseContext::next_token() {
   const Token next = stream_.next();
-  const Span place{file_, next.begin, next.end};
-  const std::string_view text = text_.substr(next.begin, next.end - next.begin);
-  if (is_word(next.kind)) return {next.kind, Name{std::string(text), place}, place};
-  if (next.kind == token::STRING) return {next.kind, unescape(text), place};
-  if (next.kind == token::INTEGER || next.kind == token::REAL)
-    return {next.kind, std::string(text), place};
-  return {next.kind, place};
+  return {next.kind, Span{file_, next.begin, next.end}};
 }
 
 bool ParseContext::enter(DepthGuard& guard, Span after) {

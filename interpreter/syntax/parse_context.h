@@ -44,7 +44,12 @@ class ParseContext {
   using ExpectedTokens = std::function<std::vector<RuleParser::symbol_kind_type>()>;
   void report_unexpected(const ExpectedTokens& expected);
 
+  [[nodiscard]] Name name(Span place) const { return {std::string(text(place)), place}; }
+
   // ---- for the factories ----
+  [[nodiscard]] std::string_view text(Span place) const {
+    return text_.substr(place.begin, place.end - place.begin);
+  }
   void report(support::Diagnostic diagnostic);
   /// An expression has become too high. A sum that goes on after that is reported once.
   void report_too_high(Span place);
