@@ -20,6 +20,7 @@ using support::DiagnosticKind;
 struct OrbitChange {
   OrbitClasses before;
   OrbitClasses after;
+  std::vector<std::vector<NodeIndex>> members;  ///< right nodes by class after, named by the first
 };
 
 class EmbeddingChecker {
@@ -40,8 +41,13 @@ class EmbeddingChecker {
       if (embedding.kind == EmbeddingKind::Derived || embedding.role == EmbeddingRole::Result)
         continue;
       const OrbitChange& change = change_of(embedding.orbit);
+      std::map<NodeIndex, std::vector<const Assignment*>> assigned;
+      for (const Assignment& assignment : rule_.assignments)
+        if (types::index(assignment.embedding) == id)
+          assigned[change.after.of(assignment.node)].push_back(&assignment);
       for (NodeIndex node = 0; node < rule_.right.nodes.size(); ++node)
-        if (change.after.of(node) == node) good &= check_class(types::EmbeddingId{id}, node, change);
+        if (!change.members[node].empty())
+          good &= check_class(embedding, node, assigned[node], change);
     }
     return good;
   }
@@ -50,35 +56,26 @@ class EmbeddingChecker {
   const OrbitChange& change_of(types::OrbitType type) {
     const auto found = changes_.find(type);
     if (found != changes_.end()) return found->second;
-    return changes_
-        .emplace(type, OrbitChange{OrbitClasses::before(rule_.left, old_, type),
-                                   OrbitClasses::after(new_, old_, type)})
-        .first->second;
+    OrbitChange change{OrbitClasses::before(rule_.left, old_, type),
+                       OrbitClasses::after(new_, old_, type),
+                       std::vector<std::vector<NodeIndex>>(rule_.right.nodes.size())};
+    for (NodeIndex node = 0; node < rule_.right.nodes.size(); ++node)
+      change.members[change.after.of(node)].push_back(node);
+    return changes_.emplace(type, std::move(change)).first->second;
   }
 
-  /// The right nodes in the class of `first`, its smallest.
-  std::vector<NodeIndex> members(NodeIndex first, const OrbitChange& change) const {
-    std::vector<NodeIndex> nodes;
-    for (NodeIndex node = first; node < rule_.right.nodes.size(); ++node)
-      if (change.after.of(node) == first) nodes.push_back(node);
-    return nodes;
-  }
-
-  bool check_class(types::EmbeddingId id, NodeIndex first, const OrbitChange& change) {
-    std::vector<const Assignment*> assigned;
-    for (const Assignment& assignment : rule_.assignments)
-      if (assignment.embedding == id && change.after.of(assignment.node) == first)
-        assigned.push_back(&assignment);
+  bool check_class(const EmbeddingDecl& embedding, NodeIndex first,
+                   const std::vector<const Assignment*>& assigned, const OrbitChange& change) {
     if (!assigned.empty()) {
-      bool good = one_value(assigned, schema_[id]);
+      bool good = one_value(assigned, embedding);
       for (const Assignment* assignment : assigned)
         good = good && invariance_.check(*assignment, change.after.joined(first), diagnostics_);
       return good;
     }
-    const std::vector<NodeIndex> nodes = members(first, change);
+    const std::vector<NodeIndex>& nodes = change.members[first];
     for (const NodeIndex node : nodes)
-      if (rule_.right_to_left[node]) return merges(schema_[id], nodes, node, change);
-    return starts(schema_[id], nodes.front());
+      if (rule_.right_to_left[node]) return merges(embedding, nodes, node, change);
+    return starts(embedding, nodes.front());
   }
 
   /// E2.

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <string_view>
 
 namespace gmsim::check {
 namespace {
@@ -17,7 +19,7 @@ std::vector<NodeIndex> connected_parts(const Pattern& pattern) {
   std::vector<NodeIndex> part(pattern.nodes.size());
   std::iota(part.begin(), part.end(), NodeIndex{0});
   const auto find = [&](NodeIndex node) {
-    while (part[node] != node) node = part[node];
+    while (part[node] != node) node = part[node] = part[part[node]];
     return node;
   };
   const auto join = [&](NodeIndex a, NodeIndex b) {
@@ -69,17 +71,17 @@ bool StructureChecker::dimensions(PatternSide side) {
 
 bool StructureChecker::names(PatternSide side) {
   bool good = true;
-  const std::vector<PatternNode>& nodes = side.pattern.nodes;
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    for (std::size_t first = 0; first < k; ++first) {
-      if (nodes[first].name != nodes[k].name) continue;
-      good = false;
-      if (first_report(nodes[k]))
-        diagnostics_.report({DiagnosticKind::DuplicateNode,
-                             fmt::format("node `{}` stands twice in {}", nodes[k].name, side.where),
-                             nodes[k].span,
-                             {{nodes[first].span, "first here"}}});
-    }
+  std::map<std::string_view, Span> first_places;
+  for (const PatternNode& node : side.pattern.nodes) {
+    const auto [first, fresh] = first_places.emplace(node.name, node.span);
+    if (fresh) continue;
+    good = false;
+    if (first_report(node))
+      diagnostics_.report({DiagnosticKind::DuplicateNode,
+                           fmt::format("node `{}` stands twice in {}", node.name, side.where),
+                           node.span,
+                           {{first->second, "first here"}}});
+  }
   return good;
 }
 

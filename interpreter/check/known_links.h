@@ -63,10 +63,12 @@ class KnownLinks {
  private:
   void commute_labels(const Pattern& left);
   void deduce();
-  bool close_square(NodeIndex v, int i, int j);
-  bool learn(NodeIndex from, int i, LinkTarget target);
-  bool add_corner();
-  void renormalise();
+  void close_squares(NodeIndex v);
+  void learn(NodeIndex from, int i, LinkTarget target);
+  void learn_rows(const Word& identity);
+  void add_link(NodeIndex from, int i, LinkTarget target);
+  bool add_corner(NodeIndex v);
+  void look_again(NodeIndex node);
 
   int dimension_;
   NodeIndex left_count_;
@@ -74,6 +76,8 @@ class KnownLinks {
   std::vector<NodeLinks> links_;
   InvolutionGroup rows_;
   std::optional<Contradiction> contradiction_;
+  // Nodes around which something new is known: squares to close, then corners to name.
+  std::vector<NodeIndex> squares_, corners_;
 };
 
 }  // namespace gmsim::check

@@ -47,7 +47,9 @@ std::vector<UnwrittenLink> links_to_write(const Rule& rule, const KnownLinks& kn
   if (acceptable_with(rule, {}, dimension)) return {};
   std::vector<UnwrittenLink> links = writable_links(rule, known);
   if (!acceptable_with(rule, links, dimension)) return {};
-  for (std::size_t at = links.size(); at-- > 0;) {
+  // More than a few are all listed: finding the fewest takes time that their reader would not.
+  constexpr std::size_t kMostTried = 32;
+  for (std::size_t at = links.size() > kMostTried ? 0 : links.size(); at-- > 0;) {
     std::vector<UnwrittenLink> fewer = links;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(at));
     if (acceptable_with(rule, fewer, dimension)) links = std::move(fewer);

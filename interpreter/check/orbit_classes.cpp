@@ -10,8 +10,8 @@ OrbitClasses::OrbitClasses(NodeIndex nodes) : class_of_(nodes), joined_(nodes, 0
   std::iota(class_of_.begin(), class_of_.end(), NodeIndex{0});
 }
 
-NodeIndex OrbitClasses::root(NodeIndex node) const {
-  while (class_of_[node] != node) node = class_of_[node];
+NodeIndex OrbitClasses::root(NodeIndex node) {
+  while (class_of_[node] != node) node = class_of_[node] = class_of_[class_of_[node]];
   return node;
 }
 

@@ -27,7 +27,7 @@ class OrbitClasses {
 
  private:
   explicit OrbitClasses(NodeIndex nodes);
-  [[nodiscard]] NodeIndex root(NodeIndex node) const;
+  [[nodiscard]] NodeIndex root(NodeIndex node);
   void join(NodeIndex a, NodeIndex b, const Word& rows);
   void finish();
 

@@ -133,7 +133,10 @@ int main(int argc, char** argv) {
   const Options options = read_options(argc, argv);
   std::cout << "seed " << options.seed << ", " << options.trials << " trials" << std::endl;
   std::vector<BaseRule> sound = from_schemes(sound_schemes());
+  const std::size_t schemes = sound.size();
   add_library(sound);
+  std::cout << schemes << " schemes and " << sound.size() - schemes
+            << " rules of the library to start from\n";
   CheckerTrials trials(std::move(sound), from_schemes(unsound_schemes()), mesh_maps(), options.seed);
   trials.run(options.trials);
   return report(trials.counts()) ? EXIT_SUCCESS : EXIT_FAILURE;
