@@ -183,6 +183,11 @@ class Printer {
       affected += " " + decl.name;
     }
     if (!affected.empty()) line(2, "spread" + affected);
+    std::string defaults;
+    for (const EmbeddingId id : plan.unassigned) {
+      if (program_.schema[id].default_value) defaults += " " + program_.schema[id].name;
+    }
+    if (!defaults.empty()) line(2, "default" + defaults);
   }
 
   void print_body(const std::vector<Statement>& body, int depth) {

@@ -2,6 +2,7 @@
 #include "compile/rewrite_plan.h"
 
 #include <algorithm>
+#include <map>
 
 #include "compile/compile.h"
 
@@ -39,6 +40,7 @@ class RewriteCompiler {
       list_changes();
     }
     for (const check::Assignment& assignment : rule_.assignments) add_assignment(assignment);
+    if (plan_.creates()) list_unassigned();
     return std::move(plan_);
   }
 
@@ -77,6 +79,8 @@ class RewriteCompiler {
 
   void write(LinkWrite link) {
     plan_.writes.push_back(link);
+    const bool loop = link.position == LinkWrite::kExplicit && link.from == link.to;
+    if (!loop) plan_.made_links.insert(link.dimension);
     links_[link.from].insert(link.dimension);
     links_[link.to].insert(link.dimension);
   }
@@ -125,6 +129,43 @@ class RewriteCompiler {
     }
     plan_.assignments.push_back({columns_[assignment.node], assignment.embedding, assignment.value,
                                  std::move(joined), assignment.target_span, assignment.span});
+  }
+
+  /// The classes of right nodes, for one orbit type, that hold created nodes only.
+  std::vector<std::vector<bool>> created_classes(OrbitType orbit) const {
+    std::vector<std::vector<bool>> classes;
+    std::vector<bool> seen(rule_.right.nodes.size(), false);
+    for (check::NodeIndex node = 0; node < seen.size(); ++node) {
+      if (seen[node]) continue;
+      std::vector<bool> member = orbit_class(node, orbit);
+      bool created = true;
+      for (check::NodeIndex other = 0; other < member.size(); ++other) {
+        if (!member[other]) continue;
+        seen[other] = true;
+        created = created && !rule_.right_to_left[other];
+      }
+      if (created) classes.push_back(std::move(member));
+    }
+    return classes;
+  }
+
+  void list_unassigned() {
+    std::map<OrbitType, std::vector<std::vector<bool>>> classes;
+    for (std::size_t i = 0; i < schema_.size(); ++i) {
+      const auto id = static_cast<EmbeddingId>(i);
+      const OrbitType orbit = schema_[id].orbit;
+      if (schema_[id].kind == gmap::EmbeddingKind::Derived) continue;
+      const auto [entry, added] = classes.try_emplace(orbit);
+      if (added) entry->second = created_classes(orbit);
+      const bool lacks = std::any_of(
+          entry->second.begin(), entry->second.end(), [&](const std::vector<bool>& member) {
+            return std::none_of(rule_.assignments.begin(), rule_.assignments.end(),
+                                [&](const check::Assignment& assignment) {
+                                  return assignment.embedding == id && member[assignment.node];
+                                });
+          });
+      if (lacks) plan_.unassigned.push_back(id);
+    }
   }
 
   const check::Rule& rule_;

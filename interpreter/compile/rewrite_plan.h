@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "compile/match_plan.h"
@@ -49,6 +50,9 @@ struct RewritePlan {
   std::vector<ColumnChange> changes;  ///< ascending column; empty: the rule changes values only
   std::vector<Assignment> assignments;
   OrbitType changed_links;            ///< union over all changes
+  OrbitType made_links;               ///< dimensions of links made between different darts
+  /// Embeddings of which the rule creates orbits that no assignment gives a value.
+  std::vector<EmbeddingId> unassigned;
 
   [[nodiscard]] bool creates() const { return created_columns > 0; }
   [[nodiscard]] bool removes() const;

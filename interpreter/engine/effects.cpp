@@ -48,10 +48,11 @@ std::uint64_t Effects::visited_darts() const {
 
 void Effects::append(const Effects& later) {
   touched.insert(touched.end(), later.touched.begin(), later.touched.end());
-  for (const OrbitEvents& events : later.orbits) {
-    if (events.repair.visited_darts > 0 || !events.repair.removed.empty()) {
-      append_repair(repair(events.type), events.repair);
-    }
+  for (std::size_t k = 0; k < later.orbits.size(); ++k) {
+    const OrbitEvents& events = later.orbits[k];
+    if (events.repair.visited_darts == 0 && events.repair.removed.empty()) continue;
+    const bool same_place = k < orbits.size() && orbits[k].type == events.type;
+    append_repair(same_place ? orbits[k].repair : repair(events.type), events.repair);
   }
   applications += later.applications;
   dropped += later.dropped;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/operation.h"
 
+#include "engine/dart_pool.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 namespace gmsim::engine {
 
@@ -21,22 +24,43 @@ class Run {
 
   RewriteOutcome outcome;
 
+  /// Runs all or nothing; true when it applied.
+  bool whole(const compile::Operation& item, DartId dart, const Arguments& arguments) {
+    outcome.status = Status::Applied;
+    outcome.effects.clear();
+    if (!state_.map.alive(dart)) return absent(item, dart);
+    const bool alone = !rewriter_.recording();
+    if (alone) rewriter_.begin();
+    if (operation(item, dart, arguments)) {
+      if (alone) rewriter_.commit();
+      return true;
+    }
+    if (alone) rewriter_.roll_back();
+    depth_ = 0;
+    outcome.effects.clear();
+    outcome.error->notes.push_back(
+        fmt::format("running operation `{}` at dart {}", item.name, types::index(dart)));
+    return false;
+  }
+
+ private:
   bool operation(const compile::Operation& item, DartId dart, const Arguments& arguments) {
-    constexpr int kDeepest = 100;
+    constexpr std::size_t kDeepest = 100;
     if (++depth_ > kDeepest) {
       return fail({DiagnosticKind::RecursiveDefinition,
                    fmt::format("operation `{}` applies itself without end", item.name),
                    item.name_span});
     }
-    Frame frame(item.frame_size);
+    if (frames_.size() < depth_) frames_.emplace_back();
+    Frame& frame = frames_[depth_ - 1];
+    frame.reset(item.frame_size);
     frame.set(item.dart, dart);
     for (const auto& [slot, value] : arguments) frame.set(slot, value);
-    const bool done = parameters(item, frame) && block(item.body, frame);
+    if (!parameters(item, frame) || !block(item.body, frame)) return false;
     --depth_;
-    return done;
+    return true;
   }
 
- private:
   bool parameters(const compile::Operation& item, Frame& frame) {
     for (const compile::Parameter& parameter : item.parameters) {
       if (frame.has(parameter.slot)) continue;
@@ -83,16 +107,17 @@ class Run {
 
   bool run(const compile::Statement&, const compile::ForStatement& loop, Frame& frame) {
     if (loop.collection->type.kind == types::ValueKind::Range) return range(loop, frame);
-    std::vector<DartId> all;
-    if (!evaluator_.evaluate_darts(*loop.collection, frame, all)) return no_value();
-    std::vector<DartId> chosen;
-    for (DartId d : all) {
+    const DartPool::Lease chosen(pool_);
+    if (!evaluator_.evaluate_darts(*loop.collection, frame, *chosen)) return no_value();
+    std::size_t count = 0;
+    for (DartId d : *chosen) {
       bool holds = false;
       frame.set(loop.variable, d);
       if (!condition(loop, frame, holds)) return false;
-      if (holds) chosen.push_back(d);
+      if (holds) (*chosen)[count++] = d;
     }
-    for (DartId d : chosen) {
+    chosen->resize(count);
+    for (DartId d : *chosen) {
       if (!state_.map.alive(d)) continue;
       frame.set(loop.variable, d);
       if (!pass(loop, frame)) return false;
@@ -138,9 +163,11 @@ class Run {
 
   bool run(const compile::Statement& statement, const compile::ApplyStatement& apply,
            Frame& frame) {
-    std::vector<DartId> darts(apply.darts.size());
-    for (std::size_t i = 0; i < darts.size(); ++i) {
-      if (!evaluator_.evaluate_dart(*apply.darts[i], frame, darts[i])) return no_value();
+    const DartPool::Lease darts(pool_);
+    for (const types::ExprPtr& expr : apply.darts) {
+      DartId dart;
+      if (!evaluator_.evaluate_dart(*expr, frame, dart)) return no_value();
+      darts->push_back(dart);
     }
     Arguments arguments;
     for (const auto& [slot, expr] : apply.parameters) {
@@ -149,22 +176,16 @@ class Run {
       arguments.emplace_back(slot, std::move(*value));
     }
     if (!apply.operation) {
-      return rule(statement, state_.program.rules[apply.target], darts, arguments);
+      return rule(statement, state_.program.rules[apply.target], *darts, arguments);
     }
-    if (!state_.map.alive(darts.front())) return gone(statement, darts.front());
-    return operation(state_.program.operations[apply.target], darts.front(), arguments);
+    if (!state_.map.alive(darts->front())) return gone(statement, darts->front());
+    return operation(state_.program.operations[apply.target], darts->front(), arguments);
   }
 
   bool rule(const compile::Statement& statement, const compile::Rule& item,
             const std::vector<DartId>& hooks, const Arguments& arguments) {
-    RewriteOutcome result = rewriter_.apply(item, hooks, arguments);
-    if (result.applied()) {
-      outcome.effects.append(result.effects);
-      return true;
-    }
-    outcome.status = result.status;
-    outcome.failure = std::move(result.failure);
-    outcome.error = std::move(result.error);
+    rewriter_.apply(item, hooks, arguments, outcome);
+    if (outcome.applied()) return true;
     if (outcome.status == Status::NotMatched) {
       outcome.error = not_matched(item, hooks, outcome.failure);
       outcome.error->related.push_back({statement.span, "applied here"});
@@ -172,12 +193,20 @@ class Run {
     return false;
   }
 
+  bool absent(const compile::Operation& item, DartId dart) {
+    return refuse({DiagnosticKind::NoMatch,
+                   fmt::format("dart {} is not part of the map", types::index(dart)),
+                   item.name_span});
+  }
   bool gone(const compile::Statement& statement, DartId dart) {
-    outcome.failure.reason = MatchFailure::Reason::DeadHook;
-    fail({DiagnosticKind::NoMatch,
-          fmt::format("dart {} is no longer part of the map", types::index(dart)),
-          statement.span});
+    return refuse({DiagnosticKind::NoMatch,
+                   fmt::format("dart {} is no longer part of the map", types::index(dart)),
+                   statement.span});
+  }
+  bool refuse(support::Diagnostic diagnostic) {
+    outcome.failure = {MatchFailure::Reason::DeadHook};
     outcome.status = Status::NotMatched;
+    outcome.error = std::move(diagnostic);
     return false;
   }
 
@@ -198,7 +227,9 @@ class Run {
   Rewriter& rewriter_;
   State& state_;
   TreeEvaluator& evaluator_;
-  int depth_ = 0;
+  std::deque<Frame> frames_;  // of the operations that are running, outermost first
+  std::size_t depth_ = 0;
+  DartPool pool_;
 };
 
 }  // namespace
@@ -206,44 +237,27 @@ class Run {
 RewriteOutcome OperationRunner::run(const compile::Operation& operation, DartId dart,
                                     const Arguments& arguments) {
   Run run(rewriter_);
-  if (!rewriter_.state().map.alive(dart)) {
-    run.outcome.status = Status::NotMatched;
-    run.outcome.failure.reason = MatchFailure::Reason::DeadHook;
-    run.outcome.error = support::Diagnostic{
-        DiagnosticKind::NoMatch,
-        fmt::format("dart {} is not part of the map", types::index(dart)), operation.name_span};
-    return std::move(run.outcome);
-  }
-  const bool alone = !rewriter_.recording();
-  if (alone) rewriter_.begin();
-  if (run.operation(operation, dart, arguments)) {
-    if (alone) rewriter_.commit();
-    return std::move(run.outcome);
-  }
-  if (alone) rewriter_.roll_back();
-  run.outcome.effects = {};
-  run.outcome.error->notes.push_back(fmt::format("running operation `{}` at dart {}",
-                                                 operation.name, types::index(dart)));
+  run.whole(operation, dart, arguments);
   return std::move(run.outcome);
 }
 
 RewriteOutcome OperationRunner::run_each(const compile::Operation& operation,
                                          std::span<const DartId> darts,
                                          const Arguments& arguments) {
-  RewriteOutcome all;
+  Run run(rewriter_);
+  Effects all;
   for (DartId dart : darts) {
-    RewriteOutcome one = run(operation, dart, arguments);
-    if (one.status == Status::Failed) {
-      one.effects = std::move(all.effects);
-      return one;
-    }
-    if (one.applied()) {
-      all.effects.append(one.effects);
+    if (run.whole(operation, dart, arguments)) {
+      all.append(run.outcome.effects);
+    } else if (run.outcome.status == Status::Failed) {
+      break;
     } else {
-      ++all.effects.dropped;
+      ++all.dropped;
     }
   }
-  return all;
+  if (run.outcome.status != Status::Failed) run.outcome = {};
+  run.outcome.effects = std::move(all);
+  return std::move(run.outcome);
 }
 
 }  // namespace gmsim::engine

@@ -61,6 +61,9 @@ class Rewriter {
   /// Applies at given hook darts, one for each hook of the rule.
   RewriteOutcome apply(const compile::Rule& rule, std::span<const DartId> hooks,
                        const Arguments& arguments = {});
+  /// The same, adding what it does to the effects in `outcome`.
+  void apply(const compile::Rule& rule, std::span<const DartId> hooks, const Arguments& arguments,
+             RewriteOutcome& outcome);
   /// Applies at each of the darts in turn (one-hook rules), matching again when its turn comes;
   /// what no longer matches is counted in `effects.dropped`. Stops at the first error, before
   /// which everything stays applied.

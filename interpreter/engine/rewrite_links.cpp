@@ -74,7 +74,7 @@ void Rewriter::Implementation::repair_orbits(const compile::RewritePlan& plan) {
     }
     if (touched_.empty()) continue;
     changed_.push_back({&index, nullptr});
-    index.repair(state.map, touched_, effects_.repair(index.type()), &journal_);
+    index.repair(state.map, touched_, effects_.repair(index.type()), journal());
   }
   // Only now, because a new entry moves the others.
   for (ChangedOrbits& changed : changed_) changed.repair = effects_.find(changed.index->type());

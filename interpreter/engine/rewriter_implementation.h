@@ -38,6 +38,7 @@ class Rewriter::Implementation {
 
   bool match(const compile::Rule& rule, std::span<const DartId> hooks, const Arguments& arguments,
              RewriteOutcome& outcome);
+  [[nodiscard]] bool may_fail(const compile::Rule& rule);
   // values of the right side, on the old map
   bool evaluate(const compile::Rule& rule, RewriteOutcome& outcome);
   bool evaluate_at(const compile::Rule& rule, const compile::Assignment& assignment,

@@ -47,8 +47,39 @@ std::optional<support::Diagnostic> ValueSpreader::run(std::span<const ChangedOrb
   return std::move(error_);
 }
 
+bool ValueSpreader::may_fail(const compile::Rule& rule) {
+  list_columns();
+  if (judged_rule_ != &rule) {
+    judged_rule_ = &rule;
+    judged_ = std::any_of(columns_.begin(), columns_.end(),
+                          [&](const Column& column) { return may_fail(rule, column); });
+  }
+  return judged_;
+}
+
+bool ValueSpreader::may_fail(const compile::Rule& rule, const Column& column) const {
+  const gmap::EmbeddingDecl& decl = state_.program.schema[column.id];
+  const compile::RewritePlan& plan = rule.rewrite;
+  std::size_t values = 0;  // that may meet in one orbit
+  for (const compile::Assignment& assignment : plan.assignments) {
+    if (assignment.embedding != column.id) continue;
+    values += assignment.joined.size() == rule.match.positions ? 1 : 2;
+  }
+  if (values > 1) return true;
+  if (!plan.affects(decl.orbit)) return false;
+  const bool must_agree = decl.merge == MergePolicy::None || decl.merge == MergePolicy::Equal;
+  if (decl.kind == EmbeddingKind::Extensive ? decl.weight != nullptr
+                                            : must_agree && decl.orbit.meets(plan.made_links)) {
+    return true;
+  }
+  const bool lacks = std::find(plan.unassigned.begin(), plan.unassigned.end(), column.id) !=
+                     plan.unassigned.end();
+  return lacks && !decl.default_value && !decl.optional;
+}
+
 void ValueSpreader::list_columns() {
   if (listed_ == state_.store.column_count()) return;
+  judged_rule_ = nullptr;
   columns_.clear();
   for (EmbeddingId id : state_.store.embeddings()) {
     columns_.push_back({id, &state_.store.column(id), &state_.store.index_of(id)});

@@ -40,6 +40,9 @@ class ValueSpreader {
  public:
   ValueSpreader(State& state, TreeEvaluator& evaluator) : state_(state), evaluator_(evaluator) {}
 
+  /// Can storing the values of this rule fail, with the columns that are in use?
+  [[nodiscard]] bool may_fail(const compile::Rule& rule);
+
   /// Stores values after the orbit indices were repaired. Returns an error, after which the caller
   /// rolls back. `numbers` are the components of the assigned values.
   std::optional<support::Diagnostic> run(std::span<const ChangedOrbits> changed,
@@ -64,6 +67,7 @@ class ValueSpreader {
   };
 
   void list_columns();
+  [[nodiscard]] bool may_fail(const compile::Rule& rule, const Column& column) const;
   void next_epoch(Row row_end);
   void spread(const Column& column, const ChangedOrbits* changed);
   const ChangedOrbits* find(const Column& column, std::span<const ChangedOrbits> changed) const;
@@ -89,6 +93,8 @@ class ValueSpreader {
   TreeEvaluator& evaluator_;
   std::vector<Column> columns_;  // in use, intensive before extensive
   std::size_t listed_ = 0;
+  const compile::Rule* judged_rule_ = nullptr;  // by may_fail, with the columns as listed
+  bool judged_ = false;
 
   // of one run
   std::span<const AssignedValue> assigned_;

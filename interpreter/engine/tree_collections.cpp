@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 #include <utility>
 
 #include "engine/tree_walker.h"
@@ -52,10 +53,11 @@ void TreeWalker::quotient(const Expr& expr, std::vector<DartId>& out) {
   gmap::for_each_dart(state_.map, expr.orbit, at, [&](DartId d) { out.push_back(d); });
   if (expr.orbit.contains(expr.orbit2)) {
     inner_quotient(expr.orbit2, out);
+    std::sort(out.begin(), out.end());
   } else {
+    std::sort(out.begin(), out.end());
     outer_quotient(expr.orbit2, out);
   }
-  std::sort(out.begin(), out.end());
 }
 
 /// Inner orbits that lie inside the outer one: keeps the darts that are the smallest of theirs.
@@ -68,22 +70,21 @@ void TreeWalker::inner_quotient(OrbitType inner, std::vector<DartId>& darts) con
 }
 
 /// Inner orbits that reach out of the outer one: two darts fall together when they share the whole
-/// inner orbit, though the way from one to the other may leave the outer one.
-void TreeWalker::outer_quotient(OrbitType inner, std::vector<DartId>& darts) const {
+/// inner orbit, though the way from one to the other may leave the outer one. Takes ascending darts.
+void TreeWalker::outer_quotient(OrbitType inner, std::vector<DartId>& darts) {
   const gmap::OrbitIndex* index = state_.store.find_index(inner);
-  std::vector<std::pair<std::uint32_t, DartId>> members;
-  members.reserve(darts.size());
-  for (DartId d : darts) {
+  constexpr std::size_t kFew = 64;  // orbits among which a search goes from one to the next
+  std::unordered_set<std::uint32_t> many;
+  met_.clear();
+  std::erase_if(darts, [&](DartId d) {
     const std::uint32_t orbit = index != nullptr
                                     ? index->row(d)
                                     : types::index(gmap::smallest_dart(state_.map, inner, d));
-    members.emplace_back(orbit, d);
-  }
-  std::sort(members.begin(), members.end());
-  darts.clear();
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    if (i == 0 || members[i].first != members[i - 1].first) darts.push_back(members[i].second);
-  }
+    if (std::find(met_.begin(), met_.end(), orbit) != met_.end()) return true;
+    if (met_.size() == kFew) return !many.insert(orbit).second;
+    met_.push_back(orbit);
+    return false;
+  });
 }
 
 void TreeWalker::polygon(const Expr& expr, std::vector<DartId>& out) {
@@ -119,10 +120,10 @@ void TreeWalker::each(const Expr& fold, const Body& body) {
     for (; number < range[1] && !failed() && body(); number += 1.0) {
     }
   } else {
-    const Collection members(*this);
+    const DartPool::Lease members(pool_);
     darts(collection, *members);
     variable = {Frame::Kind::Dart};
-    for (std::size_t i = 0; i < (*members).size() && !failed(); ++i) {
+    for (std::size_t i = 0; i < members->size() && !failed(); ++i) {
       variable.dart = (*members)[i];
       if (!body()) break;
     }

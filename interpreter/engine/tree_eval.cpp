@@ -63,6 +63,8 @@ bool TreeEvaluator::assign(const types::Expr& expr, types::Slot slot, Frame& fra
 }
 
 bool TreeEvaluator::read(EmbeddingId id, DartId dart, std::span<double> out) {
+  Frame frame;
+  const TreeWalker::Entry entry(*walker_, frame);
   walker_->read(id, dart, out.data(), nullptr);
   return !failed();
 }

@@ -129,13 +129,20 @@ void TreeWalker::derived(EmbeddingId id, DartId dart, double* out) {
   --derived_depth_;
 }
 
+void TreeWalker::list_sources() {
+  if (!sources_.empty() && listed_ == state_.store.column_count()) return;
+  sources_.assign(state_.program.schema.size(), Source{});
+  for (const EmbeddingId id : state_.store.embeddings()) {
+    sources_[types::index(id)] = {&state_.store.column(id), &state_.store.index_of(id)};
+  }
+  listed_ = state_.store.column_count();
+}
+
 void TreeWalker::read(EmbeddingId id, DartId dart, double* out, const Expr* reader) {
   const gmap::EmbeddingDecl& decl = state_.program.schema[id];
   if (decl.kind == gmap::EmbeddingKind::Derived && decl.derivation) return derived(id, dart, out);
-  std::span<const double> value;
-  if (state_.store.in_use(id)) {
-    value = state_.store.get(id, dart);
-  } else if (decl.default_value) {
+  std::span<const double> value = stored(id, dart);
+  if (value.empty() && sources_[types::index(id)].column == nullptr && decl.default_value) {
     value = decl.default_value->data;
   }
   if (!value.empty()) {
@@ -152,7 +159,7 @@ bool TreeWalker::has(const Expr& expr) {
   const gmap::EmbeddingDecl& decl = state_.program.schema[expr.embedding];
   if (decl.kind == gmap::EmbeddingKind::Derived) return decl.derivation != nullptr;
   if (!state_.store.in_use(expr.embedding)) return decl.default_value.has_value();
-  const std::span<const double> value = state_.store.get(expr.embedding, at);
+  const std::span<const double> value = stored(expr.embedding, at);
   if (value.empty()) return false;
   return decl.role != gmap::EmbeddingRole::Presence || value[0] != 0.0;
 }
@@ -168,8 +175,8 @@ const double* TreeWalker::view(const Expr& expr, double* scratch) {
       return view(*expr.args[0], scratch);
     case ExprKind::Embedding: {
       DartId at;
-      if (!live_dart(*expr.args[0], at) || !state_.store.in_use(expr.embedding)) break;
-      const std::span<const double> value = state_.store.get(expr.embedding, at);
+      if (!live_dart(*expr.args[0], at)) break;
+      const std::span<const double> value = stored(expr.embedding, at);
       if (!value.empty()) return value.data();
       break;
     }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/dart_pool.h"
 #include "engine/frame.h"
 #include "engine/state.h"
 #include "engine/tree_eval.h"
@@ -33,6 +34,7 @@ class TreeWalker {
   class Entry {
    public:
     Entry(TreeWalker& walker, Frame& frame) : walker_(walker), outer_(walker.frame_) {
+      if (outer_ == nullptr) walker.list_sources();
       walker.frame_ = &frame;
     }
     ~Entry() { walker_.frame_ = outer_; }
@@ -56,7 +58,20 @@ class TreeWalker {
 
  private:
   using Expr = types::Expr;
-  class Collection;  // a vector from the pool
+
+  /// Where the stored values of an embedding are; null pointers when it is not in use.
+  struct Source {
+    const gmap::EmbeddingColumn* column = nullptr;
+    const gmap::OrbitIndex* index = nullptr;
+  };
+  void list_sources();
+  /// The stored value at a dart; empty when it has none.
+  [[nodiscard]] std::span<const double> stored(EmbeddingId id, DartId dart) const {
+    const Source& source = sources_[types::index(id)];
+    if (source.column == nullptr) return {};
+    const Row row = source.index->row(dart);
+    return source.column->has(row) ? source.column->get(row) : std::span<const double>{};
+  }
 
   // tree_walker.cpp
   void fail(support::DiagnosticKind kind, const Expr& where, std::string message,
@@ -88,7 +103,7 @@ class TreeWalker {
   // tree_collections.cpp
   void quotient(const Expr& expr, std::vector<DartId>& out);
   void inner_quotient(OrbitType inner, std::vector<DartId>& darts) const;
-  void outer_quotient(OrbitType inner, std::vector<DartId>& darts) const;
+  void outer_quotient(OrbitType inner, std::vector<DartId>& darts);
   void polygon(const Expr& expr, std::vector<DartId>& out);
   /// Calls body() with the fold's variable set to each member; stops when body returns false.
   template <typename Body>
@@ -105,37 +120,21 @@ class TreeWalker {
   void fail_empty(const Expr& expr);
 
   const State& state_;
+  std::vector<Source> sources_;  // by EmbeddingId
+  std::size_t listed_ = 0;
+  std::vector<std::uint32_t> met_;  // orbits that a quotient has met
   Frame* frame_ = nullptr;
   std::deque<Frame> derived_frames_;
   std::size_t derived_depth_ = 0;
-  std::deque<std::vector<DartId>> pool_;
-  std::size_t pool_used_ = 0;
+  DartPool pool_;
   std::optional<EvalFailure> failure_;
-};
-
-/// A vector of darts for as long as it is needed.
-class TreeWalker::Collection {
- public:
-  explicit Collection(TreeWalker& walker) : walker_(walker) {
-    if (walker.pool_used_ == walker.pool_.size()) walker.pool_.emplace_back();
-    darts_ = &walker.pool_[walker.pool_used_++];
-    darts_->clear();
-  }
-  ~Collection() { --walker_.pool_used_; }
-  Collection(const Collection&) = delete;
-  Collection& operator=(const Collection&) = delete;
-  [[nodiscard]] std::vector<DartId>& operator*() const { return *darts_; }
-
- private:
-  TreeWalker& walker_;
-  std::vector<DartId>* darts_;
 };
 
 template <typename Body>
 void TreeWalker::with_bound(const Expr& let, const Body& body) {
   const Expr& bound = *let.args[0];
   const Arena::Mark mark = frame_->arena_.mark();
-  Collection collection(*this);
+  const DartPool::Lease collection(pool_);
   Frame::Cell value;
   switch (bound.type.kind) {
     case types::ValueKind::Dart:

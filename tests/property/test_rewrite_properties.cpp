@@ -44,7 +44,7 @@ class Trial {
  public:
   Trial(const RuleBook& book, const gmap::Mesh& mesh, std::uint64_t seed)
       : rules(book), state(make_state(rules.program(), mesh, seed)),
-        rewriter(*state, {.validate = true}), random(seed) {}
+        rewriter(*state, {.validate = true}), plain(*state), random(seed) {}
 
   DartId random_dart() {
     DartId d{0};
@@ -55,10 +55,16 @@ class Trial {
   RewriteOutcome apply(const char* rule, const std::vector<DartId>& hooks) {
     return rewriter.apply(rules.rule(rule), hooks);
   }
-  /// Applies, which must match or not match, but never fail.
+  /// Applies, which must match or not match, but never fail. Every second time as a program does,
+  /// without a record of changes where the rule cannot fail.
   bool try_apply(const char* rule, const std::vector<DartId>& hooks) {
-    const RewriteOutcome outcome = apply(rule, hooks);
+    const bool as_program = random() % 2 == 0 && !rewriter.recording();
+    const RewriteOutcome outcome =
+        as_program ? plain.apply(rules.rule(rule), hooks) : apply(rule, hooks);
     if (outcome.error) FAIL_CHECK(rules.rendered(*outcome.error));
+    if (as_program) {
+      for (const std::string& flaw : gmap::validate(state->map, state->store)) FAIL_CHECK(flaw);
+    }
     return outcome.applied();
   }
   [[nodiscard]] double total(const char* name) const {
@@ -89,6 +95,7 @@ class Trial {
   const RuleBook& rules;
   std::unique_ptr<engine::State> state;
   engine::Rewriter rewriter;
+  engine::Rewriter plain;
   std::mt19937_64 random;
 };
 
