@@ -27,16 +27,21 @@ class CellMaker {
     built_.dart_point.resize(built_.map.dart_end());
     built_.dart_cell.resize(built_.map.dart_end());
     for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
-      const auto corners =
-          cell_points.subspan(mesh_.cell_begin[cell], mesh_.corners(cell).size());
+      const auto corners = cell_points.subspan(mesh_.cell_begin[cell], mesh_.corners(cell).size());
       const std::uint32_t first = next_;
       switch (mesh_.kinds[cell]) {
-        case Mesh::CellKind::Segment: add_segment(corners); break;
-        case Mesh::CellKind::Polygon: add_polygon(corners); break;
+        case Mesh::CellKind::Segment:
+          add_segment(corners);
+          break;
+        case Mesh::CellKind::Polygon:
+          add_polygon(corners);
+          break;
         case Mesh::CellKind::Tetrahedron:
         case Mesh::CellKind::Hexahedron:
         case Mesh::CellKind::Prism:
-        case Mesh::CellKind::Pyramid: add_solid(mesh_.kinds[cell], corners); break;
+        case Mesh::CellKind::Pyramid:
+          add_solid(mesh_.kinds[cell], corners);
+          break;
       }
       std::fill(built_.dart_cell.begin() + first, built_.dart_cell.begin() + next_,
                 static_cast<std::uint32_t>(cell));
@@ -56,8 +61,12 @@ class CellMaker {
     for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
       const std::size_t corners = mesh_.corners(cell).size();
       switch (mesh_.kinds[cell]) {
-        case Mesh::CellKind::Segment: count += 2, facets += 2; break;
-        case Mesh::CellKind::Polygon: count += 2 * corners, facets += corners; break;
+        case Mesh::CellKind::Segment:
+          count += 2, facets += 2;
+          break;
+        case Mesh::CellKind::Polygon:
+          count += 2 * corners, facets += corners;
+          break;
         case Mesh::CellKind::Tetrahedron:
         case Mesh::CellKind::Hexahedron:
         case Mesh::CellKind::Prism:
@@ -143,7 +152,8 @@ void find_pinched_edges(MeshMap& built) {
     ends.push_back({std::min(a, b), std::max(a, b)});
   }
   std::sort(ends.begin(), ends.end());
-  ProblemList pinched(false, "pinched edges, around which the solids fall apart into several edges");
+  ProblemList pinched(false,
+                      "pinched edges, around which the solids fall apart into several edges");
   for (std::size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
     while (end < ends.size() && ends[end] == ends[begin]) ++end;
     if (end - begin == 1) continue;

@@ -14,10 +14,18 @@ namespace {
 using Point = std::array<double, 3>;
 using Corners = std::span<const std::uint32_t>;
 
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point operator-(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Point operator+(const Point& a, const Point& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Point operator*(double s, const Point& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -53,19 +61,22 @@ double solid_volume(const Mesh& mesh, Mesh::CellKind kind, Corners corners) {
 
 double cell_extent(const Mesh& mesh, std::size_t cell) {
   const Corners corners = mesh.corners(cell);
-  double largest = 0.0;
+  double largest = 0.0;  // squared
   for (std::uint32_t p : corners) {
     const Point edge = mesh.points[p] - mesh.points[corners[0]];
-    largest = std::max(largest, std::sqrt(dot(edge, edge)));
+    largest = std::max(largest, dot(edge, edge));
   }
-  return largest;
+  return std::sqrt(largest);
 }
 
 double signed_cell_measure(const Mesh& mesh, std::size_t cell) {
   switch (mesh.dimension) {
-    case 1: return cell_extent(mesh, cell);
-    case 2: return polygon_area(mesh, mesh.corners(cell));
-    default: return solid_volume(mesh, mesh.kinds[cell], mesh.corners(cell));
+    case 1:
+      return cell_extent(mesh, cell);
+    case 2:
+      return polygon_area(mesh, mesh.corners(cell));
+    default:
+      return solid_volume(mesh, mesh.kinds[cell], mesh.corners(cell));
   }
 }
 

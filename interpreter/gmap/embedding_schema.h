@@ -25,7 +25,8 @@ enum class EmbeddingKind {
 enum class MergePolicy { None, Equal, First, Mean, Min, Max };
 
 /// What a named value is: an `embedding`, or part of an interaction: the mark that an orbit carries
-/// it ("stretch_spring", bool, optional), a parameter ("stretch_spring.rest", optional) or a result.
+/// it ("stretch_spring", bool, optional), a parameter ("stretch_spring.rest", optional) or a
+/// result.
 enum class EmbeddingRole { Data, Presence, Parameter, Result };
 
 struct EmbeddingDecl {
@@ -36,12 +37,12 @@ struct EmbeddingDecl {
   EmbeddingKind kind = EmbeddingKind::Intensive;
   EmbeddingRole role = EmbeddingRole::Data;
   MergePolicy merge = MergePolicy::None;
-  bool optional = false;                     ///< an orbit may lack the value
-  std::optional<types::Value> default_value; ///< given to created orbits
-  types::ExprPtr weight;                     ///< Extensive: `split EXPR`, else null (equal parts)
-  types::ExprPtr derivation;                 ///< Derived: the expression
-  types::Slot dart_slot{};                   ///< the dart that weight and derivation speak of
-  std::uint32_t frame_size = 1;              ///< slots that weight and derivation need
+  bool optional = false;                      ///< an orbit may lack the value
+  std::optional<types::Value> default_value;  ///< given to created orbits
+  types::ExprPtr weight;                      ///< Extensive: `split EXPR`, else null (equal parts)
+  types::ExprPtr derivation;                  ///< Derived: the expression
+  types::Slot dart_slot{};                    ///< the dart that weight and derivation speak of
+  std::uint32_t frame_size = 1;               ///< slots that weight and derivation need
   std::string doc;
   support::Span span;
   double unit_scale = 1.0;  ///< SI units per declared unit ([mm]: 1e-3); values are held in SI

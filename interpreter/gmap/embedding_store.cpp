@@ -73,13 +73,17 @@ const EmbeddingStore::Slot& EmbeddingStore::slot(types::EmbeddingId id) const {
   return slots_[types::index(id)];
 }
 
-EmbeddingColumn& EmbeddingStore::column(types::EmbeddingId id) { return *slot(id).column; }
+EmbeddingColumn& EmbeddingStore::column(types::EmbeddingId id) {
+  return *slot(id).column;
+}
 
 const EmbeddingColumn& EmbeddingStore::column(types::EmbeddingId id) const {
   return *slot(id).column;
 }
 
-const OrbitIndex& EmbeddingStore::index_of(types::EmbeddingId id) const { return *slot(id).index; }
+const OrbitIndex& EmbeddingStore::index_of(types::EmbeddingId id) const {
+  return *slot(id).index;
+}
 
 OrbitIndex& EmbeddingStore::use_index(OrbitType type) {
   for (const auto& index : indices_) {

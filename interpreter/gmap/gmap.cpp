@@ -8,6 +8,12 @@ namespace gmsim::gmap {
 
 namespace {
 
+void add_pair(std::vector<DartId>* touched, DartId a, DartId b) {
+  if (touched == nullptr) return;
+  touched->push_back(a);
+  touched->push_back(b);
+}
+
 /// Follows one link from both darts of a pair. False when one is free and the other is not.
 bool step_pair(const DartId* alpha, DartId& a, DartId& b, bool& moved) {
   const DartId next_a = alpha[index(a)], next_b = alpha[index(b)];
@@ -18,8 +24,8 @@ bool step_pair(const DartId* alpha, DartId& a, DartId& b, bool& moved) {
   return true;
 }
 
-/// Calls visit(x, y) for the pairs that the isomorphism between two orbits of at most two links puts
-/// together; stops and returns false when there is none or visit returns false.
+/// Calls visit(x, y) for the pairs that the isomorphism between two orbits of at most two links
+/// puts together; stops and returns false when there is none or visit returns false.
 template <class Visit>
 bool walk_pairs(const detail::OrbitLinks& links, DartId a, DartId b, Visit&& visit) {
   if (!visit(a, b)) return false;
@@ -54,12 +60,18 @@ DartId GMap::add_darts(std::uint32_t count) {
   const std::uint32_t first = dart_end();
   GMSIM_CHECK(count < 0x80000000u - first, "more than 2^31 darts");
   if (journal_ != nullptr) journal_->begin(*this);
-  for (int i = 0; i <= dimension_; ++i) {
-    alpha_[i].resize(first + count);
-    for (std::uint32_t d = first; d < first + count; ++d) alpha_[i][d] = DartId{d};
+  alpha_[0].resize(first + count);
+  for (std::uint32_t d = first; d < first + count; ++d) alpha_[0][d] = DartId{d};
+  for (int i = 1; i <= dimension_; ++i) {
+    alpha_[i].insert(alpha_[i].end(), alpha_[0].begin() + first, alpha_[0].end());
   }
   alive_ += count;
   return DartId{first};
+}
+
+std::span<DartId> GMap::new_links(int i, DartId first) {
+  GMSIM_CHECK(journal_ == nullptr || journal_->is_new(first), "dart is older than the journal");
+  return std::span(alpha_[i]).subspan(index(first));
 }
 
 void GMap::drop_links(DartId d) {
@@ -75,7 +87,9 @@ void GMap::check_unreachable(DartId d, std::span<const DartId> neighbours) const
   }
 }
 
-void GMap::remove_dart(DartId d) { remove_darts({&d, 1}); }
+void GMap::remove_dart(DartId d) {
+  remove_darts({&d, 1});
+}
 
 void GMap::remove_darts(std::span<const DartId> darts) {
   std::vector<std::array<DartId, types::kMaxDimension + 1>> neighbours(darts.size());
@@ -86,49 +100,58 @@ void GMap::remove_darts(std::span<const DartId> darts) {
   for (std::size_t k = 0; k < darts.size(); ++k) check_unreachable(darts[k], neighbours[k]);
 }
 
-void GMap::link(int i, DartId a, DartId b) {
-  GMSIM_CHECK(a != b && is_free(i, a) && is_free(i, b), "darts to link must be free and different");
-  set_alpha(i, a, b);
-  set_alpha(i, b, a);
-}
-
-void GMap::unlink(int i, DartId a) {
-  const DartId b = alpha(i, a);
-  GMSIM_CHECK(a != b && alpha(i, b) == a, "dart to unlink is free");
-  set_alpha(i, a, a);
-  set_alpha(i, b, b);
-}
-
 bool GMap::can_sew(int i, DartId a, DartId b) const {
   const detail::OrbitLinks links(*this, sew_type(i));
-  return walk_pairs(links, a, b, [&](DartId x, DartId y) {
-    return is_free(i, x) && is_free(i, y) && x != b;
-  });
+  return walk_pairs(links, a, b,
+                    [&](DartId x, DartId y) { return is_free(i, x) && is_free(i, y) && x != b; });
 }
 
 bool GMap::sew(int i, DartId a, DartId b, std::vector<DartId>* touched) {
+  const OrbitType type = sew_type(i);
+  if (type.is_single()) return sew_edges(i, type.first(), a, b, touched);
   if (!can_sew(i, a, b)) return false;
-  const detail::OrbitLinks links(*this, sew_type(i));
-  walk_pairs(links, a, b, [&](DartId x, DartId y) {
-    set_alpha(i, x, y);
-    set_alpha(i, y, x);
-    if (touched != nullptr) touched->insert(touched->end(), {x, y});
+  walk_pairs(detail::OrbitLinks(*this, type), a, b, [&](DartId x, DartId y) {
+    set_pair(i, x, y, y, x);
+    add_pair(touched, x, y);
     return true;
   });
   return true;
 }
 
-void GMap::unsew(int i, DartId a, std::vector<DartId>* touched) {
-  detail::walk_linear(detail::OrbitLinks(*this, sew_type(i)), a, [&](DartId x) {
-    const DartId y = alpha(i, x);
-    if (y == x) return;
-    set_alpha(i, x, x);
-    set_alpha(i, y, y);
-    if (touched != nullptr) touched->insert(touched->end(), {x, y});
-  });
+bool GMap::sew_edges(int i, int along, DartId a, DartId b, std::vector<DartId>* touched) {
+  const DartId end_a = alpha(along, a), end_b = alpha(along, b);
+  if (a == b || end_a == b || (end_a == a) != (end_b == b)) return false;
+  if (!is_free(i, a) || !is_free(i, b) || !is_free(i, end_a) || !is_free(i, end_b)) return false;
+  set_pair(i, a, b, b, a);
+  add_pair(touched, a, b);
+  if (end_a == a) return true;
+  set_pair(i, end_a, end_b, end_b, end_a);
+  add_pair(touched, end_a, end_b);
+  return true;
 }
 
-void GMap::record_alpha(int i, DartId d) { journal_->record(*this, i, d); }
+void GMap::unsew(int i, DartId a, std::vector<DartId>* touched) {
+  const OrbitType type = sew_type(i);
+  const auto free_pair = [&](DartId x) {
+    const DartId y = alpha(i, x);
+    if (y == x) return;
+    set_pair(i, x, x, y, y);
+    add_pair(touched, x, y);
+  };
+  if (!type.is_single()) return detail::walk_linear(detail::OrbitLinks(*this, type), a, free_pair);
+  const DartId end = alpha(type.first(), a);
+  free_pair(a);
+  free_pair(end);
+}
+
+void GMap::record_alpha(int i, DartId d) {
+  journal_->record(*this, i, d);
+}
+
+void GMap::record_pair(int i, DartId a, DartId b) {
+  journal_->record(*this, i, a);
+  journal_->record(*this, i, b);
+}
 
 std::size_t GMap::memory_bytes() const {
   std::size_t bytes = sizeof(*this);

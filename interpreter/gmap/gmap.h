@@ -33,7 +33,9 @@ class GMap {
 
   [[nodiscard]] int dimension() const { return dimension_; }
   /// One past the largest dart id ever used.
-  [[nodiscard]] std::uint32_t dart_end() const { return static_cast<std::uint32_t>(alpha_[0].size()); }
+  [[nodiscard]] std::uint32_t dart_end() const {
+    return static_cast<std::uint32_t>(alpha_[0].size());
+  }
   [[nodiscard]] std::uint32_t dart_count() const { return alive_; }
   [[nodiscard]] bool alive(DartId d) const {
     return index(d) < dart_end() && alpha_[0][index(d)] != kNoDart;
@@ -55,18 +57,30 @@ class GMap {
   void remove_darts(std::span<const DartId> darts);
 
   /// Single pair: both darts must be i-free (link) or linked (unlink).
-  void link(int i, DartId a, DartId b);
-  void unlink(int i, DartId a);
+  void link(int i, DartId a, DartId b) {
+    GMSIM_CHECK(a != b && is_free(i, a) && is_free(i, b), "darts to link must differ and be free");
+    set_pair(i, a, b, b, a);
+  }
+  void unlink(int i, DartId a) {
+    const DartId b = alpha(i, a);
+    GMSIM_CHECK(a != b && alpha(i, b) == a, "dart to unlink is free");
+    set_pair(i, a, a, b, b);
+  }
   /// Raw write of one entry; the caller restores the involution.
   void set_alpha(int i, DartId d, DartId value) {
     if (journal_ != nullptr) record_alpha(i, d);
     alpha_[i][index(d)] = value;
   }
 
+  /// The links of the darts from `first` on for direct writing, in place of set_alpha: they must be
+  /// new since the journal, if any, began, since what is new needs no record. Gone at the next
+  /// add_darts.
+  [[nodiscard]] std::span<DartId> new_links(int i, DartId first);
+
   /// The orbit <0..i-2, i+2..n> whose darts are linked together by sew and unsew in dimension i.
   [[nodiscard]] OrbitType sew_type(int i) const {
-    return OrbitType::from_bits(static_cast<std::uint8_t>(
-        OrbitType::range(0, i - 2).bits() | OrbitType::range(i + 2, dimension_).bits()));
+    const unsigned all = (2u << dimension_) - 1, near = (7u << i) >> 1;  // i-1, i, i+1
+    return OrbitType::from_bits(static_cast<std::uint8_t>(all & ~near));
   }
 
   /// True when sew(i, a, b) is possible: the orbits <0..i-2, i+2..n> of a and b are isomorphic with
@@ -86,6 +100,15 @@ class GMap {
  private:
   friend class Journal;
   void record_alpha(int i, DartId d);
+  void record_pair(int i, DartId a, DartId b);
+  /// sew for orbits of one link, `along`: edges and the like, by far the most frequent.
+  bool sew_edges(int i, int along, DartId a, DartId b, std::vector<DartId>* touched);
+  void set_pair(int i, DartId a, DartId value_a, DartId b, DartId value_b) {
+    if (journal_ != nullptr) record_pair(i, a, b);
+    DartId* const links = alpha_[i].data();
+    links[index(a)] = value_a;
+    links[index(b)] = value_b;
+  }
   void drop_links(DartId d);
   void check_unreachable(DartId d, std::span<const DartId> neighbours) const;
 

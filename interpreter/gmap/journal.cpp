@@ -49,6 +49,10 @@ void Journal::begin(const GMap& map) {
   if (map_.empty()) map_.push_back({map.dart_end(), map.dart_count()});
 }
 
+bool Journal::is_new(DartId d) const {
+  return !map_.empty() && gmap::index(d) >= map_.front().dart_end;
+}
+
 void Journal::record(const GMap& map, int i, DartId d) {
   begin(map);
   MapLog& log = map_.front();
@@ -64,7 +68,9 @@ Journal::IndexLog& Journal::log(OrbitIndex& index) {
   return indices_.back();
 }
 
-void Journal::begin(OrbitIndex& index) { log(index); }
+void Journal::begin(OrbitIndex& index) {
+  log(index);
+}
 
 void Journal::record_row(OrbitIndex& index, DartId d, Row old) {
   IndexLog& entry = log(index);
@@ -84,7 +90,9 @@ Journal::ColumnLog& Journal::log(EmbeddingColumn& column) {
   return columns_.back();
 }
 
-void Journal::begin(EmbeddingColumn& column) { log(column); }
+void Journal::begin(EmbeddingColumn& column) {
+  log(column);
+}
 
 void Journal::record(EmbeddingColumn& column, Row row) {
   ColumnLog& entry = log(column);
@@ -107,8 +115,8 @@ void Journal::roll_back(GMap& map, EmbeddingStore& store) {
     for (auto row = log.rows.rbegin(); row != log.rows.rend(); ++row) {
       index.rows_[gmap::index(row->dart)] = row->old;
     }
-    for (auto smallest = log.smallest.rbegin(); smallest != log.smallest.rend(); ++smallest) {
-      index.smallest_[smallest->row] = smallest->old;
+    for (auto entry = log.smallest.rbegin(); entry != log.smallest.rend(); ++entry) {
+      index.smallest_[entry->row] = entry->old;
     }
     index.rows_.resize(log.dart_end);
     index.smallest_.resize(log.row_end);

@@ -32,6 +32,9 @@ class Journal {
   /// Number of entries recorded.
   [[nodiscard]] std::size_t size() const;
 
+  /// True for a dart that undoing cuts off.
+  [[nodiscard]] bool is_new(DartId d) const;
+
   // Called just before the change. `begin` notes the sizes, once.
   void begin(const GMap& map);
   void record(const GMap& map, int i, DartId d);

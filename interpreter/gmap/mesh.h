@@ -21,15 +21,17 @@ struct Mesh {
 
   int dimension = 2;
   std::vector<std::array<double, 3>> points;
-  std::vector<std::uint32_t> cell_points;       ///< corners of all cells, one after another
-  std::vector<std::uint32_t> cell_begin = {0};  ///< cell c is cell_points[cell_begin[c] .. cell_begin[c+1])
-  std::vector<CellKind> kinds;                  ///< one per cell
-  std::vector<std::int32_t> regions;            ///< physical group of each cell, or empty
-  std::vector<std::string> region_names;        ///< name of group i, or empty
+  std::vector<std::uint32_t> cell_points;  ///< corners of all cells, one after another
+  std::vector<std::uint32_t> cell_begin = {
+      0};                             ///< cell c is cell_points[cell_begin[c] .. cell_begin[c+1])
+  std::vector<CellKind> kinds;        ///< one per cell
+  std::vector<std::int32_t> regions;  ///< physical group of each cell, or empty
+  std::vector<std::string> region_names;  ///< name of group i, or empty
 
   void add_cell(CellKind kind, const std::vector<std::uint32_t>& corners);
   [[nodiscard]] std::span<const std::uint32_t> corners(std::size_t cell) const {
-    return std::span(cell_points).subspan(cell_begin[cell], cell_begin[cell + 1] - cell_begin[cell]);
+    return std::span(cell_points)
+        .subspan(cell_begin[cell], cell_begin[cell + 1] - cell_begin[cell]);
   }
   [[nodiscard]] std::size_t cell_count() const { return kinds.size(); }
 };
@@ -66,12 +68,12 @@ struct MeshMap {
 ///
 /// Solids of negative volume (base seen clockwise from the rest) are turned round, by mirroring the
 /// order of their corners around corner 0, and reported. Unused points are reported and have no
-/// dart. Where the cells around a point or a 3D edge do not hang together by facets (a pinched vertex or
-/// edge), each part becomes a vertex or edge of its own, which is reported too. Fatal are a wrong
-/// number of corners, a point number beyond the last, a coordinate that is not finite, a cell that
-/// repeats a point or has no measure (below 1e-13 of its extent to the power of the dimension), and
-/// a facet of more than two cells. Every message names what it speaks of by number, the first ten.
-/// Nothing is built when a problem is fatal.
+/// dart. Where the cells around a point or a 3D edge do not hang together by facets (a pinched
+/// vertex or edge), each part becomes a vertex or edge of its own, which is reported too. Fatal are
+/// a wrong number of corners, a point number beyond the last, a coordinate that is not finite, a
+/// cell that repeats a point or has no measure (below 1e-13 of its extent to the power of the
+/// dimension), and a facet of more than two cells. Every message names what it speaks of by number,
+/// the first ten. Nothing is built when a problem is fatal.
 [[nodiscard]] MeshMap build_map(const Mesh& mesh);
 
 }  // namespace gmsim::gmap

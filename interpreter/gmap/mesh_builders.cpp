@@ -99,8 +99,8 @@ Mesh box(std::array<std::uint32_t, 3> cells, std::array<double, 3> size, BoxElem
   checked_product({nx, ny, nz});
   Mesh mesh;
   mesh.dimension = 3;
-  mesh.points.reserve(checked_product(
-      {nx + std::uint64_t{1}, ny + std::uint64_t{1}, nz + std::uint64_t{1}}));
+  mesh.points.reserve(
+      checked_product({nx + std::uint64_t{1}, ny + std::uint64_t{1}, nz + std::uint64_t{1}}));
   for (std::uint32_t k = 0; k <= nz; ++k) {
     for (std::uint32_t j = 0; j <= ny; ++j) {
       for (std::uint32_t i = 0; i <= nx; ++i) {
@@ -113,13 +113,19 @@ Mesh box(std::array<std::uint32_t, 3> cells, std::array<double, 3> size, BoxElem
     for (std::uint32_t j = 0; j < ny; ++j) {
       for (std::uint32_t i = 0; i < nx; ++i) {
         const std::uint32_t a = k * layer + j * row + i;
-        const std::array<std::uint32_t, 8> corners{a,         a + 1,         a + row,
-                                                   a + row + 1,         a + layer, a + layer + 1,
-                                                   a + layer + row, a + layer + row + 1};
+        const std::array<std::uint32_t, 8> corners{
+            a,         a + 1,         a + row,         a + row + 1,
+            a + layer, a + layer + 1, a + layer + row, a + layer + row + 1};
         switch (elements) {
-          case BoxElements::Hexes: add_hexahedron(mesh, corners); break;
-          case BoxElements::Tets6: add_six_tets(mesh, corners); break;
-          case BoxElements::Tets5: add_five_tets(mesh, corners, (i + j + k) % 2 == 1); break;
+          case BoxElements::Hexes:
+            add_hexahedron(mesh, corners);
+            break;
+          case BoxElements::Tets6:
+            add_six_tets(mesh, corners);
+            break;
+          case BoxElements::Tets5:
+            add_five_tets(mesh, corners, (i + j + k) % 2 == 1);
+            break;
         }
       }
     }

@@ -19,12 +19,18 @@ constexpr double kNoMeasure = 1e-13;  // of extent^dimension: well above roundin
 
 bool fits(Mesh::CellKind kind, int dimension, std::size_t corners) {
   switch (kind) {
-    case Mesh::CellKind::Segment: return dimension == 1 && corners == 2;
-    case Mesh::CellKind::Polygon: return dimension == 2 && corners >= 3;
-    case Mesh::CellKind::Tetrahedron: return dimension == 3 && corners == 4;
-    case Mesh::CellKind::Hexahedron: return dimension == 3 && corners == 8;
-    case Mesh::CellKind::Prism: return dimension == 3 && corners == 6;
-    case Mesh::CellKind::Pyramid: return dimension == 3 && corners == 5;
+    case Mesh::CellKind::Segment:
+      return dimension == 1 && corners == 2;
+    case Mesh::CellKind::Polygon:
+      return dimension == 2 && corners >= 3;
+    case Mesh::CellKind::Tetrahedron:
+      return dimension == 3 && corners == 4;
+    case Mesh::CellKind::Hexahedron:
+      return dimension == 3 && corners == 8;
+    case Mesh::CellKind::Prism:
+      return dimension == 3 && corners == 6;
+    case Mesh::CellKind::Pyramid:
+      return dimension == 3 && corners == 5;
   }
   return false;
 }
@@ -58,6 +64,14 @@ struct CellProblems {
 
 /// A corner that the cell has twice; one past the points when there is none.
 std::uint32_t repeated_point(const Mesh& mesh, Corners corners) {
+  if (corners.size() <= 8) {
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      if (std::find(corners.begin(), corners.begin() + i, corners[i]) != corners.begin() + i) {
+        return corners[i];
+      }
+    }
+    return static_cast<std::uint32_t>(mesh.points.size());
+  }
   std::vector<std::uint32_t> sorted(corners.begin(), corners.end());
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
@@ -79,6 +93,14 @@ bool check_corners(const Mesh& mesh, std::size_t cell, CellProblems& problems) {
   const std::uint32_t twice = repeated_point(mesh, corners);
   if (twice < mesh.points.size()) problems.repeats.add(fmt::format("{} (point {})", cell, twice));
   return twice == mesh.points.size();
+}
+
+/// extent^dimension: what the measure of a well-shaped cell is comparable to.
+double measure_scale(const Mesh& mesh, std::size_t cell) {
+  const double length = cell_extent(mesh, cell);
+  return mesh.dimension == 1   ? length
+         : mesh.dimension == 2 ? length * length
+                               : length * length * length;
 }
 
 void turn_round(Mesh::CellKind kind, std::span<std::uint32_t> corners) {
@@ -119,8 +141,7 @@ std::vector<std::uint32_t> check_cells(const Mesh& mesh, std::vector<MeshProblem
   for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
     if (!check_corners(mesh, cell, found) || !found.not_finite.empty()) continue;
     const double size = signed_cell_measure(mesh, cell);
-    const double scale = std::pow(cell_extent(mesh, cell), mesh.dimension);
-    if (std::abs(size) <= kNoMeasure * scale) {
+    if (std::abs(size) <= kNoMeasure * measure_scale(mesh, cell)) {
       found.no_measure.add(cell);
     } else if (size < 0.0) {
       found.turned.add(cell);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// OrbitIndex::repair, in two passes. The first walks each orbit that holds a touched dart and
-// collects the rows its darts had; those rows are then open to be claimed. The second goes through
-// the orbits by ascending smallest dart and gives each a row. The arrays of the index themselves
-// hold the marks: while a repair runs, a marked entry names the part that was there last.
+// OrbitIndex::repair. Orbits get their rows by ascending smallest dart: an orbit takes the former
+// row of its smallest dart unless an earlier one has taken it. There are two ways to get there.
+// When few darts are touched, their orbits are walked and put in order first. When a good part of
+// the map is touched, all darts are gone through in order, so that the first dart met of an orbit
+// is its smallest, and every orbit is walked and named at once.
 #include <algorithm>
-#include <bit>
 
 #include "gmap/journal.h"
 #include "gmap/orbit_index.h"
@@ -14,28 +14,288 @@ namespace gmsim::gmap {
 
 namespace {
 
-constexpr std::uint32_t kMark = 0x80000000u;  // darts and rows are below it
+constexpr std::uint32_t kManyTouched = 8;  // one dart in so many: go through the whole map
 
-constexpr bool is_mark(std::uint32_t value) { return value >= kMark && value != kNoRow; }
+// While a repair runs, the arrays of the index hold marks beside rows and smallest darts.
+constexpr Row kWalked = kNoRow - 1;             // a dart whose orbit was walked and has no row yet
+constexpr Row kTouched = kNoRow - 1;            // in the new rows: touched, not walked yet
+constexpr std::uint32_t kMarked = 0x80000000u;  // on smallest darts, which are below it
 
-/// Sorts different numbers below `end`: by a bit set when they are dense. `bits` is work space,
-/// all zero before and after.
-void sort_numbers(std::vector<std::uint32_t>& numbers, std::uint32_t end,
-                  std::vector<std::uint64_t>& bits) {
-  if (std::is_sorted(numbers.begin(), numbers.end())) return;
-  if (numbers.size() < end / 256) return std::sort(numbers.begin(), numbers.end());
-  bits.resize((end + 63) / 64);
-  for (std::uint32_t n : numbers) bits[n / 64] |= std::uint64_t{1} << (n % 64);
-  auto out = numbers.begin();
-  for (std::uint32_t word = 0; word < bits.size(); ++word) {
-    for (std::uint64_t rest = bits[word]; rest != 0; rest &= rest - 1) {
-      *out++ = word * 64 + static_cast<std::uint32_t>(std::countr_zero(rest));
-    }
-    bits[word] = 0;
-  }
+constexpr bool marked(DartId d) {
+  return d != kNoDart && index(d) >= kMarked;
+}
+constexpr DartId mark(DartId d) {
+  return DartId{index(d) | kMarked};
+}
+constexpr DartId unmark(DartId d) {
+  return DartId{index(d) & ~kMarked};
 }
 
+/// The former rows of an orbit but the one that the caller knows; most often none to three.
+class OtherRows {
+ public:
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  void clear() {
+    count_ = 0;
+    many_.clear();
+  }
+  /// `row` may have been added before.
+  void add(Row row) {
+    if (row == kNoRow || (count_ > 0 && few_[count_ - 1] == row)) return;
+    if (count_ < kFew) {
+      few_[count_++] = row;
+    } else {
+      many_.push_back(row);
+    }
+  }
+  /// Appends `first`, unless it is kNoRow, and the others, ascending and each once.
+  void write(Row first, std::vector<Row>& out) const {
+    const std::size_t begin = out.size();
+    if (first != kNoRow) out.push_back(first);
+    for (std::uint32_t i = 0; i < count_; ++i) insert(few_[i], begin, out);
+    if (many_.empty()) return;
+    out.insert(out.end(), many_.begin(), many_.end());
+    const auto from = out.begin() + static_cast<std::ptrdiff_t>(begin);
+    std::sort(from, out.end());
+    out.erase(std::unique(from, out.end()), out.end());
+  }
+
+ private:
+  /// Puts a row in its place in the ascending rows from `begin`, unless it is there.
+  static void insert(Row row, std::size_t begin, std::vector<Row>& out) {
+    std::size_t place = out.size();
+    while (place > begin && out[place - 1] > row) --place;
+    if (place > begin && out[place - 1] == row) return;
+    out.push_back(row);
+    Row* const rows = out.data();
+    for (std::size_t k = out.size() - 1; k > place; --k) rows[k] = rows[k - 1];
+    rows[place] = row;
+  }
+
+  static constexpr std::uint32_t kFew = 16;
+  std::array<Row, kFew> few_;
+  std::uint32_t count_ = 0;
+  std::vector<Row> many_;
+};
+
 }  // namespace
+
+/// One repair of one index.
+class OrbitRepairer {
+ public:
+  OrbitRepairer(OrbitIndex& orbit_index, const GMap& map, OrbitRepair& work, Journal* journal)
+      : index_(orbit_index), map_(map), work_(work), journal_(journal), links_(map, index_.type_) {
+    index_.rows_.resize(map.dart_end(), kNoRow);
+  }
+
+  void repair_few(std::span<const DartId> touched) {
+    work_.parts_.clear();
+    work_.darts_.clear();
+    work_.old_rows_.clear();
+    work_.open_.clear();
+    for (DartId d : touched) {
+      GMSIM_CHECK(index(d) < map_.dart_end(), "touched dart is not of this map");
+      if (row(d) == kWalked) continue;
+      if (map_.alive(d)) {
+        walk_part(d);
+      } else if (row(d) != kNoRow) {
+        drop(d);
+      }
+    }
+    std::sort(work_.parts_.begin(), work_.parts_.end(),
+              [](const auto& a, const auto& b) { return a.smallest < b.smallest; });
+    for (const OrbitRepair::Part& part : work_.parts_) name_part(part);
+    for (Row row : work_.open_) {
+      if (marked(smallest(row))) remove_row(row);
+    }
+  }
+
+  void repair_many(std::span<const DartId> touched) {
+    const std::uint32_t dart_end = map_.dart_end();
+    work_.new_rows_.assign(dart_end, kNoRow);
+    for (Row* const new_rows = work_.new_rows_.data(); DartId d : touched) {
+      GMSIM_CHECK(index(d) < dart_end, "touched dart is not of this map");
+      new_rows[index(d)] = kTouched;
+    }
+    if (links_.count == 2) {
+      name_all([&](DartId d, auto&& visit) {
+        detail::walk_alternating(links_.alpha[0], links_.alpha[1], d, visit);
+      });
+    } else if (links_.count < 2) {
+      name_all([&](DartId d, auto&& visit) { detail::walk_linear(links_, d, visit); });
+    } else {
+      name_all([&](DartId d, auto&& visit) { walk_breadth_first(d, visit); });
+    }
+    close_all_rows();
+    if (journal_ != nullptr) record_changed_rows();
+    index_.rows_.swap(work_.new_rows_);
+  }
+
+ private:
+  [[nodiscard]] Row& row(DartId d) { return index_.rows_[index(d)]; }
+  [[nodiscard]] DartId& smallest(Row row) { return index_.smallest_[row]; }
+
+  // --- few touched darts: rows whose orbit was met are marked until they are taken
+
+  void drop(DartId d) {
+    if (journal_ != nullptr) journal_->record_row(index_, d, row(d));
+    open_row(row(d));
+    row(d) = kNoRow;
+    ++work_.visited_darts;
+  }
+
+  void open_row(Row row) {
+    if (marked(smallest(row))) return;
+    if (journal_ != nullptr) journal_->record_smallest(index_, row);
+    smallest(row) = mark(smallest(row));
+    work_.open_.push_back(row);
+  }
+
+  void walk_part(DartId d) {
+    const auto begin = static_cast<std::uint32_t>(work_.darts_.size());
+    DartId least = d;
+    const auto visit = [&](DartId x) {
+      const Row old = row(x);
+      if (old != kNoRow) open_row(old);
+      if (journal_ != nullptr) journal_->record_row(index_, x, old);
+      work_.darts_.push_back(x);
+      work_.old_rows_.push_back(old);
+      row(x) = kWalked;
+      least = std::min(least, x);
+    };
+    if (links_.count <= 2) {
+      detail::walk_linear(links_, d, visit);
+    } else {
+      visit(d);
+      for (std::size_t next = begin; next < work_.darts_.size(); ++next) {
+        for (int k = 0; k < links_.count; ++k) {
+          const DartId x = links_.alpha[k][index(work_.darts_[next])];
+          if (row(x) != kWalked) visit(x);
+        }
+      }
+    }
+    work_.parts_.push_back({least, begin, static_cast<std::uint32_t>(work_.darts_.size())});
+    work_.visited_darts += work_.darts_.size() - begin;
+  }
+
+  void name_part(const OrbitRepair::Part& part) {
+    Row former = kNoRow;
+    others_.clear();
+    for (std::uint32_t i = part.darts_begin; i < part.darts_end; ++i) {
+      if (work_.darts_[i] == part.smallest) former = work_.old_rows_[i];
+      others_.add(work_.old_rows_[i]);
+    }
+    const bool free = former != kNoRow && marked(smallest(former));
+    const Row name = free ? former : new_row();
+    smallest(name) = part.smallest;
+    for (std::uint32_t i = part.darts_begin; i < part.darts_end; ++i) row(work_.darts_[i]) = name;
+    publish(name, part.smallest, former);
+  }
+
+  // --- many touched darts: rows are marked when they are taken
+
+  /// Goes through the map; `walk` calls its second argument for every dart of an orbit.
+  template <class Walk>
+  void name_all(Walk&& walk) {
+    const Row* const old_rows = index_.rows_.data();
+    Row* const new_rows = work_.new_rows_.data();
+    const DartId* const alive = map_.alphas(0).data();
+    const std::uint32_t dart_end = map_.dart_end();
+    for (std::uint32_t i = 0; i < dart_end; ++i) {
+      if (new_rows[i] < kTouched) continue;
+      if (alive[i] == kNoDart) {
+        new_rows[i] = kNoRow;
+        continue;
+      }
+      const DartId d{i};
+      const Row former = old_rows[i];
+      const Row name = former != kNoRow && !marked(smallest(former)) ? former : new_row();
+      Row marks = kNoRow;
+      others_.clear();
+      walk(
+          d, [&](DartId x) __attribute__((always_inline)) {
+            const Row old = old_rows[index(x)];
+            marks &= new_rows[index(x)];
+            new_rows[index(x)] = name;
+            if (old != former) others_.add(old);
+          });
+      if (journal_ != nullptr && smallest(name) != d) journal_->record_smallest(index_, name);
+      smallest(name) = mark(d);
+      if (marks != kNoRow) publish(name, d, former);
+    }
+    work_.visited_darts += dart_end;
+  }
+
+  template <class Visit>
+  void walk_breadth_first(DartId d, Visit&& visit) {
+    work_.darts_.assign(1, d);
+    visit(d);
+    const Row name = work_.new_rows_[index(d)];
+    for (std::size_t next = 0; next < work_.darts_.size(); ++next) {
+      for (int k = 0; k < links_.count; ++k) {
+        const DartId x = links_.alpha[k][index(work_.darts_[next])];
+        if (work_.new_rows_[index(x)] == name) continue;
+        work_.darts_.push_back(x);
+        visit(x);
+      }
+    }
+  }
+
+  void close_all_rows() {
+    for (Row row = 0; row < index_.row_end(); ++row) {
+      DartId& d = smallest(row);
+      if (d == kNoDart) continue;
+      if (marked(d)) {
+        d = unmark(d);
+      } else {
+        if (journal_ != nullptr) journal_->record_smallest(index_, row);
+        remove_row(row);
+      }
+    }
+  }
+
+  void record_changed_rows() {
+    for (std::uint32_t i = 0; i < map_.dart_end(); ++i) {
+      const Row old = index_.rows_[i];
+      if (old != work_.new_rows_[i]) journal_->record_row(index_, DartId{i}, old);
+    }
+  }
+
+  // --- both
+
+  Row new_row() {
+    index_.smallest_.push_back(kNoDart);
+    ++index_.alive_;
+    return index_.row_end() - 1;
+  }
+
+  void remove_row(Row row) {
+    smallest(row) = kNoDart;
+    work_.removed.push_back(row);
+    --index_.alive_;
+  }
+
+  /// Tells the caller of an orbit whose former rows are `former` and `others_`.
+  void publish(Row row, DartId least, Row former) {
+    const auto begin = static_cast<std::uint32_t>(work_.sources.size());
+    if (!others_.empty()) {
+      others_.write(former, work_.sources);
+    } else if (former != kNoRow) {
+      work_.sources.push_back(former);
+    }
+    const auto count = static_cast<std::uint32_t>(work_.sources.size()) - begin;
+    work_.orbits.push_back({row, least, begin, count});
+    if (count != 1) ++(count == 0 ? work_.created : work_.merged);
+    work_.split += row != former && count > 0;
+  }
+
+  OrbitIndex& index_;
+  const GMap& map_;
+  OrbitRepair& work_;
+  Journal* journal_;
+  detail::OrbitLinks links_;
+  OtherRows others_;
+};
 
 void OrbitRepair::clear() {
   orbits.clear();
@@ -47,121 +307,14 @@ void OrbitRepair::clear() {
 
 void OrbitIndex::repair(const GMap& map, std::span<const DartId> touched, OrbitRepair& repair,
                         Journal* journal) {
+  if (touched.empty()) return;
   if (journal != nullptr) journal->begin(*this);
-  rows_.resize(map.dart_end(), kNoRow);
-  repair.parts_.clear();
-  repair.darts_.clear();
-  repair.open_.clear();
-  for (DartId d : touched) {
-    GMSIM_CHECK(index(d) < rows_.size(), "touched dart is not of this map");
-    if (is_mark(rows_[index(d)])) continue;
-    if (map.alive(d)) {
-      walk_part(map, d, repair, journal);
-    } else if (rows_[index(d)] != kNoRow) {
-      drop_dart(d, repair, journal);
-    }
-  }
-  repair.visited_darts += repair.darts_.size();
-  sort_parts(repair);
-  name_parts(repair);
-  close_rows(repair);
-}
-
-void OrbitIndex::drop_dart(DartId d, OrbitRepair& work, Journal* journal) {
-  const Row row = rows_[index(d)];
-  if (!is_mark(index(smallest_[row]))) open_row(row, kNoRow - 1, work, journal);
-  if (journal != nullptr) journal->record_row(*this, d, row);
-  rows_[index(d)] = kNoRow;
-  ++work.visited_darts;
-}
-
-void OrbitIndex::open_row(Row row, std::uint32_t part, OrbitRepair& work, Journal* journal) {
-  if (!is_mark(index(smallest_[row]))) {
-    if (journal != nullptr) journal->record_smallest(*this, row);
-    work.open_.push_back(row);
-  }
-  smallest_[row] = DartId{part};
-}
-
-void OrbitIndex::walk_part(const GMap& map, DartId d, OrbitRepair& work, Journal* journal) {
-  const std::uint32_t mark = kMark | static_cast<std::uint32_t>(work.parts_.size());
-  OrbitRepair::Part part{d, kNoRow, static_cast<std::uint32_t>(work.darts_.size()),
-                         static_cast<std::uint32_t>(work.sources.size()), 0};
-  Row last = kNoRow;
-  part.row_of_smallest = rows_[index(d)];
-  const auto visit = [&](DartId x) {
-    const Row old = rows_[index(x)];
-    if (journal != nullptr) journal->record_row(*this, x, old);
-    rows_[index(x)] = mark;
-    work.darts_.push_back(x);
-    if (x < part.smallest) {
-      part.smallest = x;
-      part.row_of_smallest = old;
-    }
-    if (old == last) return;
-    last = old;
-    if (old == kNoRow || index(smallest_[old]) == mark) return;
-    open_row(old, mark, work, journal);
-    work.sources.push_back(old);
-  };
-  const detail::OrbitLinks links(map, type_);
-  if (links.count <= 2) {
-    detail::walk_linear(links, d, visit);
+  OrbitRepairer repairer(*this, map, repair, journal);
+  if (touched.size() >= map.dart_end() / kManyTouched) {
+    repairer.repair_many(touched);
   } else {
-    visit(d);
-    for (std::size_t next = part.darts_begin; next < work.darts_.size(); ++next) {
-      for (int k = 0; k < links.count; ++k) {
-        const DartId x = links.alpha[k][index(work.darts_[next])];
-        if (rows_[index(x)] != mark) visit(x);
-      }
-    }
+    repairer.repair_few(touched);
   }
-  part.sources_end = static_cast<std::uint32_t>(work.sources.size());
-  std::sort(work.sources.begin() + part.sources_begin, work.sources.end());
-  work.parts_.push_back(part);
-}
-
-void OrbitIndex::sort_parts(OrbitRepair& work) const {
-  work.order_.clear();
-  for (const auto& part : work.parts_) work.order_.push_back(index(part.smallest));
-  sort_numbers(work.order_, static_cast<std::uint32_t>(rows_.size()), work.bits_);
-}
-
-Row OrbitIndex::claim_row(const OrbitRepair::Part& part) {
-  Row row = part.row_of_smallest;
-  if (row != kNoRow && is_mark(index(smallest_[row]))) {
-    smallest_[row] = part.smallest;
-    return row;
-  }
-  row = row_end();
-  smallest_.push_back(part.smallest);
-  ++alive_;
-  return row;
-}
-
-void OrbitIndex::name_parts(OrbitRepair& work) {
-  for (std::uint32_t smallest : work.order_) {
-    const std::uint32_t number = rows_[smallest] & ~kMark;
-    const OrbitRepair::Part& part = work.parts_[number];
-    const std::size_t darts_end = number + 1 == work.parts_.size()
-                                      ? work.darts_.size()
-                                      : work.parts_[number + 1].darts_begin;
-    const Row row = claim_row(part);
-    for (std::size_t i = part.darts_begin; i < darts_end; ++i) rows_[index(work.darts_[i])] = row;
-    const std::uint32_t sources = part.sources_end - part.sources_begin;
-    work.orbits.push_back({row, part.smallest, part.sources_begin, sources});
-    work.created += sources == 0;
-    work.merged += sources > 1;
-    work.split += sources > 0 && row != part.row_of_smallest;
-  }
-}
-
-void OrbitIndex::close_rows(OrbitRepair& work) {
-  std::erase_if(work.open_, [&](Row row) { return !is_mark(index(smallest_[row])); });
-  sort_numbers(work.open_, row_end(), work.bits_);
-  for (Row row : work.open_) smallest_[row] = kNoDart;
-  alive_ -= static_cast<Row>(work.open_.size());
-  work.removed.insert(work.removed.end(), work.open_.begin(), work.open_.end());
 }
 
 }  // namespace gmsim::gmap

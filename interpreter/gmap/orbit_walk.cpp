@@ -27,9 +27,8 @@ bool same_orbit(const GMap& map, OrbitType type, DartId a, DartId b) {
 
 std::vector<DartId> quotient(const GMap& map, OrbitType outer, OrbitType inner, DartId d) {
   std::vector<std::pair<DartId, DartId>> members;  // smallest dart of the inner orbit, dart
-  for_each_dart(map, outer, d, [&](DartId x) {
-    members.emplace_back(smallest_dart(map, inner, x), x);
-  });
+  for_each_dart(map, outer, d,
+                [&](DartId x) { members.emplace_back(smallest_dart(map, inner, x), x); });
   std::sort(members.begin(), members.end());
   std::vector<DartId> darts;
   for (std::size_t i = 0; i < members.size(); ++i) {

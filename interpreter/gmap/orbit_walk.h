@@ -9,9 +9,9 @@
 namespace gmsim::gmap {
 
 /// Calls f(dart) for every dart of the orbit of `d`, each once, starting with d. Orbits of at most
-/// two links (half-edge, 2D vertex, 2D face …) are paths or cycles and are walked along, without any
-/// marks; larger ones breadth first. Cost: the darts of the orbit. `f` may change links that are
-/// not of the type.
+/// two links (half-edge, 2D vertex, 2D face …) are paths or cycles and are walked along, without
+/// any marks; larger ones breadth first. Cost: the darts of the orbit. `f` may change links that
+/// are not of the type.
 template <class Visitor>
 void for_each_dart(const GMap& map, OrbitType type, DartId d, Visitor&& f);
 

@@ -26,7 +26,8 @@ struct OrbitLinks {
 
 /// Walks an orbit of two links, which is a path or a cycle, by alternating between them.
 template <class Visitor>
-void walk_alternating(const DartId* first, const DartId* second, DartId d, Visitor&& f) {
+[[gnu::always_inline]] inline void walk_alternating(const DartId* first, const DartId* second,
+                                                    DartId d, Visitor&& f) {
   f(d);
   DartId x = d;
   while (true) {
@@ -51,7 +52,7 @@ void walk_alternating(const DartId* first, const DartId* second, DartId d, Visit
 
 /// Walks an orbit of at most two links.
 template <class Visitor>
-void walk_linear(const OrbitLinks& links, DartId d, Visitor&& f) {
+[[gnu::always_inline]] inline void walk_linear(const OrbitLinks& links, DartId d, Visitor&& f) {
   if (links.count == 2) return walk_alternating(links.alpha[0], links.alpha[1], d, f);
   f(d);
   if (links.count == 0) return;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "gmap/mesh_problems.h"
 
@@ -13,28 +14,50 @@ namespace {
 
 constexpr std::uint32_t kNoPoint = 0xffffffffu;
 
-/// A facet with its points (at most four) ascending, which are the same for both its cells.
+/// A facet with its points (at most four, kNoPoint beyond), ascending, which are the same for both
+/// its cells.
 struct KeyedFacet {
   std::array<std::uint32_t, 4> points;
   CellFacet facet;
-
-  bool operator<(const KeyedFacet& other) const {
-    return points != other.points ? points < other.points : facet.first < other.facet.first;
-  }
 };
 
+/// The points as two numbers that compare quickly.
+std::pair<std::uint64_t, std::uint64_t> key(const KeyedFacet& facet) {
+  const auto& p = facet.points;
+  return {std::uint64_t{p[0]} << 32 | p[1], std::uint64_t{p[2]} << 32 | p[3]};
+}
+
+bool same_points(const KeyedFacet& a, const KeyedFacet& b) {
+  return key(a) == key(b);
+}
+
+bool sorts_before(const KeyedFacet& a, const KeyedFacet& b) {
+  return same_points(a, b) ? a.facet.first < b.facet.first : key(a) < key(b);
+}
+
 KeyedFacet keyed(const MeshMap& built, const CellFacet& facet) {
-  KeyedFacet key{{kNoPoint, kNoPoint, kNoPoint, kNoPoint}, facet};
-  const std::uint32_t first = index(facet.first);
-  if (built.map.dimension() < 3) {
-    for (std::uint32_t i = 0; i < facet.darts; ++i) key.points[i] = built.dart_point[first + i];
-  } else {
-    for (std::uint32_t i = 0; i < facet.darts / 2; ++i) {
-      key.points[i] = built.dart_point[first + 2 * i];
+  KeyedFacet keyed{{kNoPoint, kNoPoint, kNoPoint, kNoPoint}, facet};
+  const std::uint32_t* const points = built.dart_point.data() + index(facet.first);
+  const bool polygon = built.map.dimension() == 3;  // then every other dart is a corner
+  const std::uint32_t count = polygon ? facet.darts / 2 : facet.darts;
+  for (std::uint32_t i = 0; i < count; ++i) {  // insertion sort
+    const std::uint32_t p = points[polygon ? 2 * i : i];
+    std::uint32_t place = i;
+    for (; place > 0 && keyed.points[place - 1] > p; --place) {
+      keyed.points[place] = keyed.points[place - 1];
+    }
+    keyed.points[place] = p;
+  }
+  return keyed;
+}
+
+void sort_bucket(std::span<KeyedFacet> bucket) {
+  if (bucket.size() > 16) return std::sort(bucket.begin(), bucket.end(), sorts_before);
+  for (std::size_t i = 1; i < bucket.size(); ++i) {
+    for (std::size_t k = i; k > 0 && sorts_before(bucket[k], bucket[k - 1]); --k) {
+      std::swap(bucket[k], bucket[k - 1]);
     }
   }
-  std::sort(key.points.begin(), key.points.end());
-  return key;
 }
 
 /// Facets by ascending points: dealt out by their first point, then sorted in each small bucket.
@@ -47,11 +70,10 @@ std::vector<KeyedFacet> sorted_facets(const MeshMap& built, std::span<const Cell
     ++bucket_end[keys.back().points[0] + 1];
   }
   for (std::size_t p = 1; p < bucket_end.size(); ++p) bucket_end[p] += bucket_end[p - 1];
-  for (const KeyedFacet& key : keys) sorted[bucket_end[key.points[0]]++] = key;
-  std::uint32_t begin = 0;
-  for (std::uint32_t end : bucket_end) {
-    std::sort(sorted.begin() + begin, sorted.begin() + std::max(begin, end));
-    begin = std::max(begin, end);
+  for (const KeyedFacet& facet : keys) sorted[bucket_end[facet.points[0]]++] = facet;
+  for (std::size_t begin = 0; std::uint32_t end : bucket_end) {
+    sort_bucket(std::span(sorted).subspan(begin, end - begin));
+    begin = end;
   }
   return sorted;
 }
@@ -83,7 +105,9 @@ std::string describe(const MeshMap& built, std::span<const KeyedFacet> group) {
   for (std::uint32_t p : group[0].points) {
     if (p != kNoPoint) points.push_back(p);
   }
-  for (const KeyedFacet& key : group) cells.push_back(built.dart_cell[index(key.facet.first)]);
+  for (const KeyedFacet& facet : group) {
+    cells.push_back(built.dart_cell[index(facet.facet.first)]);
+  }
   return fmt::format("{} (cells {})", join_numbers(points, "-"), join_numbers(cells, ", "));
 }
 
@@ -101,7 +125,7 @@ void sew_facets(MeshMap& built, std::span<const CellFacet> facets) {
   ProblemList misfit(true, "faces whose two solids order the corners differently");
   const std::vector<KeyedFacet> sorted = sorted_facets(built, facets);
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
-    while (end < sorted.size() && sorted[end].points == sorted[begin].points) ++end;
+    while (end < sorted.size() && same_points(sorted[end], sorted[begin])) ++end;
     const auto group = std::span(sorted).subspan(begin, end - begin);
     if (group.size() > 2) crowded.add(describe(built, group));
     if (group.size() != 2) continue;

@@ -26,12 +26,17 @@ const Shape& shape(Mesh::CellKind kind) {
   static const Shape pyramid{{{0, 1, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}},
                              {0, 3, 2, 1, 4}};
   switch (kind) {
-    case Mesh::CellKind::Tetrahedron: return tetrahedron;
-    case Mesh::CellKind::Hexahedron: return hexahedron;
-    case Mesh::CellKind::Prism: return prism;
-    case Mesh::CellKind::Pyramid: return pyramid;
+    case Mesh::CellKind::Tetrahedron:
+      return tetrahedron;
+    case Mesh::CellKind::Hexahedron:
+      return hexahedron;
+    case Mesh::CellKind::Prism:
+      return prism;
+    case Mesh::CellKind::Pyramid:
+      return pyramid;
     case Mesh::CellKind::Segment:
-    case Mesh::CellKind::Polygon: break;
+    case Mesh::CellKind::Polygon:
+      break;
   }
   support::internal_error(__FILE__, __LINE__, "not a solid");
 }

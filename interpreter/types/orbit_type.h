@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <compare>
 #include <cstdint>
 #include <initializer_list>
@@ -50,6 +51,12 @@ class OrbitType {
   [[nodiscard]] constexpr bool meets(OrbitType other) const { return (bits_ & other.bits_) != 0; }
   [[nodiscard]] constexpr bool empty() const { return bits_ == 0; }
   [[nodiscard]] constexpr std::uint8_t bits() const { return bits_; }
+  /// Exactly one link.
+  [[nodiscard]] constexpr bool is_single() const {
+    return bits_ != 0 && (bits_ & (bits_ - 1)) == 0;  // std::has_single_bit is a call without SSE4
+  }
+  /// The lowest link; the type must not be empty.
+  [[nodiscard]] constexpr int first() const { return std::countr_zero(bits_); }
   constexpr auto operator<=>(const OrbitType&) const = default;
 
  private:

@@ -39,7 +39,20 @@ std::vector<NamedMap> all_maps(std::uint64_t seed, int count) {
   return maps;
 }
 
-std::vector<std::string> no_problems() { return {}; }
+/// Every kind of map among so many free darts that a change touches only a small part of it:
+/// repairs go another way then.
+std::vector<NamedMap> sparse_maps(std::uint64_t seed, int count) {
+  std::vector<NamedMap> maps = all_maps(seed, count);
+  for (auto& [name, map] : maps) {
+    name += " among free darts";
+    map.add_darts(400);
+  }
+  return maps;
+}
+
+std::vector<std::string> no_problems() {
+  return {};
+}
 
 /// What repair must do, computed from the rows before and the orbits after.
 struct ExpectedRepair {
@@ -58,7 +71,8 @@ ExpectedRepair expected_repair(const GMap& map, OrbitType type, const std::vecto
     if (!map.alive(d) && old_row(d) != kNoRow) met.insert(old_row(d));
   }
   for (const auto& orbit : naive_orbits(map, type)) {
-    if (std::none_of(orbit.begin(), orbit.end(), [&](DartId d) { return touched_set.contains(d); })) {
+    if (std::none_of(orbit.begin(), orbit.end(),
+                     [&](DartId d) { return touched_set.contains(d); })) {
       continue;
     }
     auto& [row, sources] = expected.orbits[*orbit.begin()];
@@ -327,45 +341,108 @@ TEST_CASE("can_sew agrees with the definition") {
   }
 }
 
+namespace {
+
+/// How many events of each kind were seen.
+struct Events {
+  std::uint32_t created = 0, split = 0, merged = 0, removed = 0;
+  void add(const OrbitRepair& repair) {
+    created += repair.created;
+    split += repair.split;
+    merged += repair.merged;
+    removed += static_cast<std::uint32_t>(repair.removed.size());
+  }
+  [[nodiscard]] std::uint32_t fewest() const { return std::min({created, split, merged, removed}); }
+};
+
+Events repair_at_random(GMap& map, std::vector<OrbitType> types, std::uint64_t seed, int batch) {
+  Events events;
+  std::mt19937_64 random(seed);
+  std::vector<OrbitIndex> indices;
+  for (OrbitType type : types) indices.emplace_back(map, type);
+  RandomChanges changes(map, random());
+  OrbitRepair repair;
+  for (int round = 0; round < 8; ++round) {
+    std::vector<DartId> touched;
+    for (int k = 0; k < batch; ++k) changes.change(touched);
+    REQUIRE(validate(map) == no_problems());
+    std::shuffle(touched.begin(), touched.end(), random);
+    for (OrbitIndex& orbits : indices) {
+      CAPTURE(to_string(orbits.type()));
+      const std::vector<Row> rows(orbits.rows().begin(), orbits.rows().end());
+      const auto expected = expected_repair(map, orbits.type(), rows, orbits.row_end(), touched);
+      repair.clear();
+      orbits.repair(map, touched, repair);
+      check_repair(repair, expected);
+      CHECK(orbits.row_end() == expected.row_end);
+      check_equals_rebuilt(orbits, map);
+      events.add(repair);
+    }
+  }
+  return events;
+}
+
+}  // namespace
+
 TEST_CASE("repair after random changes names rows as documented and equals a rebuilt index") {
   std::mt19937_64 random(7);
-  std::uint32_t created = 0, split = 0, merged = 0, removed = 0;
+  std::uint32_t fewest = 0;
   for (auto& [name, map] : all_maps(7, 60)) {
     CAPTURE(name);
-    std::vector<OrbitIndex> indices;
-    for (OrbitType type : all_types(map.dimension())) indices.emplace_back(map, type);
     const std::uint64_t seed = random();
     CAPTURE(seed);
-    RandomChanges changes(map, seed);
-    OrbitRepair repair;
-    for (int round = 0; round < 8; ++round) {
+    const int batch = 1 + static_cast<int>(random() % 6);
+    fewest += repair_at_random(map, all_types(map.dimension()), seed, batch).fewest();
+  }
+  CHECK(fewest > 500);  // the changes exercise every kind of event
+}
+
+TEST_CASE("the same in a large map of which little is touched") {
+  std::mt19937_64 random(11);
+  std::uint32_t fewest = 0;
+  for (auto& [name, map] : sparse_maps(11, 15)) {
+    CAPTURE(name);
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    const int n = map.dimension();
+    const OrbitType vertex = OrbitType::cell(0, n), face = OrbitType::cell(n, n);
+    fewest += repair_at_random(map, {vertex, face, OrbitType{0}, OrbitType{}}, seed, 2).fewest();
+  }
+  CHECK(fewest > 10);
+}
+
+TEST_CASE("merging rows link by link does what a repair does") {
+  std::mt19937_64 random(12);
+  int merged = 0;
+  for (auto& [name, map] : all_maps(12, 60)) {
+    CAPTURE(name);
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 choices(seed);
+    std::vector<OrbitIndex> repaired, by_links;
+    for (OrbitType type : all_types(map.dimension())) repaired.emplace_back(map, type);
+    by_links = repaired;
+    for (int round = 0; round < 60; ++round) {
+      const int i = static_cast<int>(choices() % static_cast<unsigned>(map.dimension() + 1));
+      const auto any = [&] {
+        return DartId{static_cast<std::uint32_t>(choices() % map.dart_end())};
+      };
       std::vector<DartId> touched;
-      const int batch = 1 + static_cast<int>(random() % 6);
-      for (int k = 0; k < batch; ++k) changes.change(touched);
-      REQUIRE(validate(map) == no_problems());
-      std::shuffle(touched.begin(), touched.end(), random);
-      for (OrbitIndex& orbits : indices) {
-        CAPTURE(to_string(orbits.type()));
-        const std::vector<Row> rows(orbits.rows().begin(), orbits.rows().end());
-        const auto expected =
-            expected_repair(map, orbits.type(), rows, orbits.row_end(), touched);
-        repair.clear();
-        orbits.repair(map, touched, repair);
-        check_repair(repair, expected);
-        CHECK(orbits.row_end() == expected.row_end);
-        check_equals_rebuilt(orbits, map);
-        created += repair.created;
-        split += repair.split;
-        merged += repair.merged;
-        removed += static_cast<std::uint32_t>(repair.removed.size());
+      if (!map.sew(i, any(), any(), &touched)) continue;
+      OrbitRepair repair;
+      for (std::size_t k = 0; k < repaired.size(); ++k) {
+        if (!repaired[k].type().contains(i)) continue;
+        repaired[k].repair(map, touched, repair);
+        for (std::size_t t = 0; t < touched.size(); t += 2) {
+          merged += by_links[k].merge(map, touched[t], touched[t + 1]) != kNoRow;
+        }
+        CAPTURE(to_string(repaired[k].type()));
+        CHECK(std::ranges::equal(repaired[k].rows(), by_links[k].rows()));
+        check_equals_rebuilt(by_links[k], map);
       }
     }
   }
-  // The changes exercise every kind of event.
-  CHECK(created > 1000);
-  CHECK(split > 1000);
-  CHECK(merged > 1000);
-  CHECK(removed > 1000);
+  CHECK(merged > 400);
 }
 
 TEST_CASE("what one repair does for many changes, repairs after each do up to names") {

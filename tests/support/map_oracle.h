@@ -62,11 +62,15 @@ class RandomChanges {
   void change(std::vector<DartId>& touched) {
     if (map_.dart_count() == 0) return add(touched);
     switch (random_() % 8) {
-      case 0: return remove(touched);
-      case 1: return add(touched);
+      case 0:
+        return remove(touched);
+      case 1:
+        return add(touched);
       case 2:
-      case 3: return map_.unsew(random_dimension(), random_dart(), &touched);
-      default: return sew(touched);
+      case 3:
+        return map_.unsew(random_dimension(), random_dart(), &touched);
+      default:
+        return sew(touched);
     }
   }
   DartId random_dart() {

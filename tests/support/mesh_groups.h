@@ -2,17 +2,16 @@
 // Small meshes of every kind and random maps, for property tests.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "gmap/gmap.h"
 #include "gmap/mesh.h"
 #include "gmap/mesh_builders.h"
+#include "gmap/random_map.h"
 
 namespace gmsim::tests {
 
@@ -113,7 +112,7 @@ inline Mesh mixed_solids() {
 inline Mesh pinched_tets() {
   Mesh mesh;
   mesh.dimension = 3;
-  mesh.points = {{0, 0, 0},  {0, 0, 1},  {1, 0, 0},  {1, 1, 0},  {-1, 0, 0},
+  mesh.points = {{0, 0, 0},   {0, 0, 1},  {1, 0, 0},  {1, 1, 0}, {-1, 0, 0},
                  {-1, -1, 0}, {1, 0, -1}, {0, 1, -1}, {0, 0, -2}};
   mesh.add_cell(Mesh::CellKind::Tetrahedron, {0, 2, 3, 1});
   mesh.add_cell(Mesh::CellKind::Tetrahedron, {0, 4, 5, 1});
@@ -135,78 +134,29 @@ inline Mesh ring() {
 inline std::vector<NamedMesh> mesh_groups() {
   using gmap::BoxElements;
   using gmap::GridCells;
-  return {{"chain", gmap::chain(5, 1.0)},
-          {"ring", ring()},
-          {"quads", gmap::grid(4, 3, 1.0, 1.0, GridCells::Quads)},
-          {"triangles", gmap::grid(3, 3, 1.0, 1.0, GridCells::Triangles)},
-          {"tri4", gmap::grid(2, 3, 1.0, 1.0, GridCells::Tri4)},
-          {"mix2", gmap::grid(3, 3, 1.0, 1.0, GridCells::Mix2)},
-          {"mix4", gmap::grid(3, 2, 1.0, 1.0, GridCells::Mix4)},
-          {"mixed polygons", mixed_polygons()},
-          {"cube surface", cube_surface()},
-          {"pillow", pillow()},
-          {"torus", torus(4, 3)},
-          {"moebius strip", moebius_strip(5)},
-          {"pinched triangles",
-           polygon_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
-                        {{0, 1, 2}, {0, 3, 4}})},
-          {"hexes", gmap::box({3, 2, 2}, {1.0, 1.0, 1.0}, BoxElements::Hexes)},
-          {"tets6", gmap::box({2, 1, 2}, {1.0, 1.0, 1.0}, BoxElements::Tets6)},
-          {"tets5", gmap::box({2, 2, 1}, {1.0, 1.0, 1.0}, BoxElements::Tets5)},
-          {"mixed solids", mixed_solids()},
-          {"pinched tets", pinched_tets()}};
+  return {
+      {"chain", gmap::chain(5, 1.0)},
+      {"ring", ring()},
+      {"quads", gmap::grid(4, 3, 1.0, 1.0, GridCells::Quads)},
+      {"triangles", gmap::grid(3, 3, 1.0, 1.0, GridCells::Triangles)},
+      {"tri4", gmap::grid(2, 3, 1.0, 1.0, GridCells::Tri4)},
+      {"mix2", gmap::grid(3, 3, 1.0, 1.0, GridCells::Mix2)},
+      {"mix4", gmap::grid(3, 2, 1.0, 1.0, GridCells::Mix4)},
+      {"mixed polygons", mixed_polygons()},
+      {"cube surface", cube_surface()},
+      {"pillow", pillow()},
+      {"torus", torus(4, 3)},
+      {"moebius strip", moebius_strip(5)},
+      {"pinched triangles", polygon_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
+                                         {{0, 1, 2}, {0, 3, 4}})},
+      {"hexes", gmap::box({3, 2, 2}, {1.0, 1.0, 1.0}, BoxElements::Hexes)},
+      {"tets6", gmap::box({2, 1, 2}, {1.0, 1.0, 1.0}, BoxElements::Tets6)},
+      {"tets5", gmap::box({2, 2, 1}, {1.0, 1.0, 1.0}, BoxElements::Tets5)},
+      {"mixed solids", mixed_solids()},
+      {"pinched tets", pinched_tets()}};
 }
 
-/// A random involution that commutes with `other` (any involution when `other` is the identity):
-/// the orbits of `other` are paired at random with one of the same size, or mapped to themselves.
-inline std::vector<std::uint32_t> commuting_involution(const std::vector<std::uint32_t>& other,
-                                                       std::mt19937_64& random) {
-  const auto count = static_cast<std::uint32_t>(other.size());
-  std::vector<std::uint32_t> result(count);
-  std::array<std::vector<std::uint32_t>, 2> orbits;  // a dart of each orbit, by size - 1
-  for (std::uint32_t d = 0; d < count; ++d) {
-    if (other[d] >= d) orbits[other[d] == d ? 0 : 1].push_back(d);
-  }
-  const std::uint64_t free_percent = random() % 60;
-  for (auto& list : orbits) {
-    std::shuffle(list.begin(), list.end(), random);
-    while (!list.empty()) {
-      const std::uint32_t a = list.back();
-      list.pop_back();
-      std::uint32_t b = a;
-      if (!list.empty() && random() % 100 >= free_percent) {
-        b = list.back();
-        list.pop_back();
-      }
-      if (random() % 2 == 0) b = other[b];  // with b = a: links a to its partner, or leaves it free
-      result[a] = b;
-      result[b] = a;
-      result[other[a]] = other[b];
-      result[other[b]] = other[a];
-    }
-  }
-  return result;
-}
-
-/// A random valid map: any links that satisfy the axioms, so with free darts, cells of one dart,
-/// folded edges, cells sewn to themselves, several components.
-inline gmap::GMap random_map(int dimension, std::uint32_t darts, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::vector<std::uint32_t> identity(darts);
-  for (std::uint32_t d = 0; d < darts; ++d) identity[d] = d;
-  std::array<std::vector<std::uint32_t>, 4> alpha;
-  // Each dimension must commute with those at least two away: 0 and 1 with 3, 2 with 0.
-  alpha[3] = dimension == 3 ? commuting_involution(identity, random) : identity;
-  alpha[0] = commuting_involution(alpha[3], random);
-  alpha[1] = commuting_involution(alpha[3], random);
-  alpha[2] = commuting_involution(alpha[0], random);
-  gmap::GMap map(dimension);
-  map.add_darts(darts);
-  for (int i = 0; i <= dimension; ++i) {
-    for (std::uint32_t d = 0; d < darts; ++d) map.set_alpha(i, DartId{d}, DartId{alpha[i][d]});
-  }
-  return map;
-}
+using gmap::random_map;
 
 /// The same map with dart d renamed to new_id[d], a permutation.
 inline gmap::GMap renamed(const gmap::GMap& map, const std::vector<std::uint32_t>& new_id) {

@@ -18,8 +18,8 @@ namespace {
 int euler(const GMap& map) {
   int sum = 0;
   for (int i = 0; i <= map.dimension(); ++i) {
-    const int count = static_cast<int>(
-        OrbitIndex(map, OrbitType::cell(i, map.dimension())).orbit_count());
+    const int count =
+        static_cast<int>(OrbitIndex(map, OrbitType::cell(i, map.dimension())).orbit_count());
     sum += i % 2 == 0 ? count : -count;
   }
   return sum;
@@ -101,7 +101,8 @@ TEST_CASE("cells of mixed solids") {
   CHECK(built.problems.empty());
   CHECK(built.map.dart_count() == 48 + 32 + 36 + 24);
   std::uint32_t inside = 0;
-  for (std::uint32_t d = 0; d < built.map.dart_end(); ++d) inside += !built.map.is_free(3, DartId{d});
+  for (std::uint32_t d = 0; d < built.map.dart_end(); ++d)
+    inside += !built.map.is_free(3, DartId{d});
   CHECK(inside == 2 * (8 + 8 + 6));
 }
 
@@ -139,8 +140,9 @@ TEST_CASE("solids whose neighbours are inverted still fit together") {
     std::swap(mesh.cell_points[4 * cell], mesh.cell_points[4 * cell + 1]);
   }
   const MeshMap built = build_map(mesh);
-  CHECK(only_problem(built, false) ==
-        "solids of negative volume, turned round: 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, … (24 in all)");
+  CHECK(
+      only_problem(built, false) ==
+      "solids of negative volume, turned round: 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, … (24 in all)");
   CHECK(euler(built.map) == 1);
 }
 
@@ -171,7 +173,8 @@ TEST_CASE("pinched points and edges become several") {
 TEST_CASE("facets of more than two cells are fatal") {
   const auto fan = polygon_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
                                 {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  CHECK(only_problem(build_map(fan), true) == "edges of more than two polygons: 0-1 (cells 0, 1, 2)");
+  CHECK(only_problem(build_map(fan), true) ==
+        "edges of more than two polygons: 0-1 (cells 0, 1, 2)");
   Mesh star = chain(2, 1.0);
   star.points.push_back({0, 1, 0});
   star.add_cell(Mesh::CellKind::Segment, {1, 3});
@@ -210,17 +213,18 @@ TEST_CASE("degenerate cells are fatal") {
 
 TEST_CASE("thin but sound cells far from the origin are accepted") {
   const double far = 1e3, thin = 1e-6;
-  const auto built = build_map(solid(
-      Mesh::CellKind::Tetrahedron,
-      {{far, far, far}, {far + 1, far, far}, {far, far + 1, far}, {far, far, far + thin}}));
+  const auto built = build_map(
+      solid(Mesh::CellKind::Tetrahedron,
+            {{far, far, far}, {far + 1, far, far}, {far, far + 1, far}, {far, far, far + thin}}));
   CHECK(built.problems.empty());
 }
 
 TEST_CASE("cells that do not fit the mesh are fatal") {
   CHECK(only_problem(build_map(polygon_mesh({{0, 0, 0}, {1, 0, 0}}, {{0, 1}})), true) ==
         "cells with a kind or number of corners that does not fit: 0 (2 corners)");
-  CHECK(only_problem(build_map(polygon_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 7}})),
-                     true) == "cells with a point number beyond the last point: 1 (point 7)");
+  CHECK(only_problem(
+            build_map(polygon_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 7}})),
+            true) == "cells with a point number beyond the last point: 1 (point 7)");
   Mesh mesh = solid(Mesh::CellKind::Tetrahedron, kTetrahedron);
   mesh.points[2][1] = std::nan("");
   CHECK(only_problem(build_map(mesh), true) == "points with a coordinate that is not finite: 2");

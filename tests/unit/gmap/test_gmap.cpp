@@ -13,7 +13,9 @@ using namespace gmsim::gmap;
 
 namespace {
 
-DartId dart(std::uint32_t d) { return DartId{d}; }
+DartId dart(std::uint32_t d) {
+  return DartId{d};
+}
 
 /// Two separate squares; 2-sewing their facing sides is what the tests do.
 GMap two_squares() {
@@ -111,6 +113,7 @@ TEST_CASE("a dart that is still linked to an alive one cannot be removed") {
   GMap map = two_squares();
   CHECK_THROWS_AS(map.remove_dart(dart(8)), support::InternalError);
   GMap again = two_squares();
-  again.remove_darts(std::vector{dart(0), dart(1), dart(2), dart(3), dart(4), dart(5), dart(6), dart(7)});
+  again.remove_darts(
+      std::vector{dart(0), dart(1), dart(2), dart(3), dart(4), dart(5), dart(6), dart(7)});
   CHECK_THROWS_AS(again.remove_dart(dart(0)), support::InternalError);
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "gmap/journal.h"
 #include "gmap/orbit_walk.h"
+#include "gmap/validate.h"
 #include "support/map_oracle.h"
 #include "support/mesh_groups.h"
 
@@ -128,5 +130,33 @@ TEST_CASE("results of several repairs add up") {
   REQUIRE(repair.orbits.size() == first + 2);
   CHECK(repair.split == 3);
   CHECK(repair.sources_of(repair.orbits.back()).size() == 1);
-  CHECK(repair.visited_darts == 12);
+}
+
+TEST_CASE("a rewrite that knows its orbits names them itself, and a journal takes it back") {
+  GMap map = build_map(grid(2, 1, 1.0, 1.0, GridCells::Quads)).map;
+  EmbeddingSchema schema;
+  EmbeddingStore store(schema, map);
+  OrbitIndex& edges = store.use_index(OrbitType{0, 2});
+  Journal journal;
+  map.set_journal(&journal);
+  const DartId first = map.add_darts(3), second{index(first) + 1}, third{index(first) + 2};
+  edges.grow(map, &journal);
+  const auto links = map.new_links(0, first);
+  links[0] = second;
+  links[1] = first;
+  CHECK(edges.add_orbit(std::vector{first, second}, &journal) == 7);
+  CHECK(edges.smallest(7) == first);
+  edges.add_orbit(std::vector{third}, &journal);
+  CHECK(edges.orbit_count() == 9);
+  CHECK(validate(map, store).empty());
+  map.link(2, third, DartId{0});
+  CHECK(edges.merge(map, third, DartId{0}, &journal) == 8);
+  CHECK(edges.row(third) == 0);
+  CHECK(edges.merge(map, third, DartId{0}, &journal) == kNoRow);
+  CHECK_THROWS_AS((void)map.new_links(0, DartId{3}), support::InternalError);
+  journal.roll_back(map, store);
+  CHECK(edges.row_end() == 7);
+  CHECK(edges.orbit_count() == 7);
+  CHECK(map.dart_end() == 16);
+  CHECK(validate(map, store).empty());
 }

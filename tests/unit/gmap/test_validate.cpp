@@ -12,7 +12,9 @@ using namespace gmsim::gmap;
 
 namespace {
 
-GMap quads() { return build_map(grid(2, 2, 1.0, 1.0, GridCells::Quads)).map; }
+GMap quads() {
+  return build_map(grid(2, 2, 1.0, 1.0, GridCells::Quads)).map;
+}
 
 bool mentions(const std::vector<std::string>& problems, std::string_view text) {
   return std::ranges::any_of(problems,
