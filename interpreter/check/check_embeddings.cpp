@@ -101,13 +101,14 @@ class EmbeddingChecker {
     // What an interaction stores on a new orbit comes from the scene.
     if (embedding.optional || embedding.default_value || embedding.role != EmbeddingRole::Data)
       return true;
-    diagnostics_.report(
-        {DiagnosticKind::MissingValue,
-         fmt::format("`{}` has no value on the {} that the rule creates at `{}`", embedding.name,
-                     words(embedding), name(node)),
-         rule_.right.nodes[node].span, {}, {},
-         fmt::format("write `{}.{} = …;`, or give `{}` a default", name(node), embedding.name,
-                     embedding.name)});
+    diagnostics_.report({DiagnosticKind::MissingValue,
+                         fmt::format("`{}` has no value on the {} that the rule creates at `{}`",
+                                     embedding.name, words(embedding), name(node)),
+                         rule_.right.nodes[node].span,
+                         {},
+                         {},
+                         fmt::format("write `{}.{} = …;`, or give `{}` a default", name(node),
+                                     embedding.name, embedding.name)});
     return false;
   }
 
@@ -136,7 +137,8 @@ class EmbeddingChecker {
     return false;
   }
 
-  Diagnostic several(const EmbeddingDecl& embedding, NodeIndex node, const std::string& what) const {
+  Diagnostic several(const EmbeddingDecl& embedding, NodeIndex node,
+                     const std::string& what) const {
     Diagnostic error{DiagnosticKind::UnresolvedMerge,
                      fmt::format("{}, each with its own `{}`", what, embedding.name),
                      rule_.right.nodes[node].span};

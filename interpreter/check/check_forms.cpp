@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "check/check_expr.h"
+#include "check/differentiable.h"
 
 namespace gmsim::check {
 using support::DiagnosticKind;
@@ -181,6 +182,7 @@ ExprPtr ExprChecker::grad_form(const syntax::CallExpr& expr, Span span) {
     return type_mismatch(variable->span,
                          "`grad` differentiates with respect to a real or vector embedding read "
                          "at a dart, as in `grad(E, a.position)`");
+  check_differentiable(value, "this", context_);
   return make(ExprKind::Grad, variable->type, quotient_unit(*value, *variable), span,
               {value, variable});
 }

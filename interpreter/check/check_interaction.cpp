@@ -131,6 +131,7 @@ class InteractionBody {
                        .message = "interaction `" + item_.name.text +
                                   "` gives neither an energy nor a force",
                        .place = item_.name.span});
+    if (context_.good()) check_forces_start_somewhere(result_, context_);
     if (context_.good()) check_force_coverage(result_, context_);
   }
 

@@ -10,8 +10,7 @@ namespace gmsim::check {
 /// E6: the value that a rule gives to an orbit is the same at every row that the orbit joins.
 class InvarianceChecker {
  public:
-  InvarianceChecker(const Rule& rule, const KnownLinks& links,
-                    const gmap::EmbeddingSchema& schema);
+  InvarianceChecker(const Rule& rule, const KnownLinks& links, const gmap::EmbeddingSchema& schema);
 
   /// Reports the first position among `joined` that changes the assignment's value.
   bool check(const Assignment& assignment, Positions joined, support::Diagnostics& diagnostics);

@@ -100,9 +100,7 @@ class LinkReport {
     return side(problem).nodes[problem.node].name;
   }
   Span place(const LinkProblem& problem) const { return side(problem).nodes[problem.node].span; }
-  NodeIndex left_of(const LinkProblem& problem) const {
-    return *rule_.right_to_left[problem.node];
-  }
+  NodeIndex left_of(const LinkProblem& problem) const { return *rule_.right_to_left[problem.node]; }
 
   void lost(const LinkProblem& problem) {
     const std::string& a = name(problem);
@@ -115,8 +113,8 @@ class LinkReport {
       error.related.push_back({*span, fmt::format("{}-link of `{}`", i, a)});
     const std::optional<NodeIndex> end = arc_end(rule_.left, before, i);
     if (!end) {
-      error.help = fmt::format("keep {} in the label of `{}`, or write its {}-link in `right`", i,
-                               a, i);
+      error.help =
+          fmt::format("keep {} in the label of `{}`, or write its {}-link in `right`", i, a, i);
     } else if (*end == before) {
       error.help = fmt::format("keep {}", arc_text(a, i, a));
     } else {
@@ -161,9 +159,8 @@ class LinkReport {
     Diagnostic error{DiagnosticKind::IncidentArcs, {}, place(problem)};
     if (problem.in_left) {
       error.message = fmt::format("node `{}` is removed, but not its {}", a, links);
-      error.help = fmt::format(
-          "match the darts at the other end in `left` ({} if `{}` is {}-free)", loop, a,
-          dimensions[0]);
+      error.help = fmt::format("match the darts at the other end in `left` ({} if `{}` is {}-free)",
+                               loop, a, dimensions[0]);
     } else {
       error.message = fmt::format("node `{}` is created without its {}", a, links);
       error.help = fmt::format("write {} to leave `{}` {}-free", loop, a, dimensions[0]);
@@ -176,12 +173,12 @@ class LinkReport {
     const NodeIndex before = problem.in_left ? problem.node : left_of(problem);
     const std::string& a = name(problem);
     const std::string& b = rule_.left.nodes[known_.link(before, i)->node].name;
-    Diagnostic error{
-        DiagnosticKind::IncidentArcs,
-        fmt::format("the {}-link of `{}` leads to `{}`, which keeps it while `{}` {}", i, a, b, a,
-                    problem.in_left ? "is removed" : "changes it"),
-        problem.in_left ? place(problem)
-                        : link_span(rule_.right, problem.node, i).value_or(place(problem))};
+    Diagnostic error{DiagnosticKind::IncidentArcs,
+                     fmt::format("the {}-link of `{}` leads to `{}`, which keeps it while `{}` {}",
+                                 i, a, b, a, problem.in_left ? "is removed" : "changes it"),
+                     problem.in_left
+                         ? place(problem)
+                         : link_span(rule_.right, problem.node, i).value_or(place(problem))};
     error.notes.push_back(
         fmt::format("that {} holds follows from the other links of `left`", arc_text(a, i, b)));
     error.help = fmt::format("write {} in `left` and the new {}-link of `{}` in `right`",
@@ -197,10 +194,10 @@ class LinkReport {
     for (const auto& [changed, kept] : {std::pair{i, j}, std::pair{j, i}})
       if (!links.unchanged(problem.node, changed) && !links.written(problem.node, kept))
         return unmatched_neighbour(problem, changed, kept);
-    Diagnostic error{DiagnosticKind::BrokenCycle,
-                     fmt::format("links {} and {} of node `{}` no longer commute after the rule", i,
-                                 j, a),
-                     place(problem)};
+    Diagnostic error{
+        DiagnosticKind::BrokenCycle,
+        fmt::format("links {} and {} of node `{}` no longer commute after the rule", i, j, a),
+        place(problem)};
     for (const int k : {i, j})
       if (const std::optional<Span> span = link_span(rule_.right, problem.node, k))
         error.related.push_back({*span, fmt::format("{}-link of `{}`", k, a)});
@@ -223,8 +220,8 @@ class LinkReport {
         fmt::format("in a map, links {} and {} commute: two darts joined by {} have their {}-links "
                     "changed together",
                     std::min(changed, kept), std::max(changed, kept), kept, changed));
-    error.help = fmt::format("match the {}-link of `{}` too: in its label, or with a node of its own",
-                             kept, a);
+    error.help = fmt::format(
+        "match the {}-link of `{}` too: in its label, or with a node of its own", kept, a);
     diagnostics_.report(std::move(error));
   }
 
@@ -259,8 +256,9 @@ class LinkReport {
       const LabelEntry entry = rule_.left.nodes[link.a].label[p];
       const bool here = p == *link.position;
       label += p == 0 ? "" : ",";
-      label += here ? std::to_string(link.dimension)
-                    : entry == kBlank ? "_" : std::to_string(static_cast<int>(entry));
+      label += here              ? std::to_string(link.dimension)
+               : entry == kBlank ? "_"
+                                 : std::to_string(static_cast<int>(entry));
     }
     return fmt::format("`{}<{}>`", a, label);
   }

@@ -49,11 +49,13 @@ bool StructureChecker::dimensions(PatternSide side) {
   const auto exists = [&](int i) { return i >= 0 && i <= dimension_; };
   const auto report = [&](int i, Span span, const char* what) {
     good = false;
-    diagnostics_.report({DiagnosticKind::LinkDimension,
-                         fmt::format("{} names dimension {} in a map of dimension {}", what, i,
-                                     dimension_),
-                         span, {}, {},
-                         fmt::format("links have dimensions 0 to {}", dimension_)});
+    diagnostics_.report(
+        {DiagnosticKind::LinkDimension,
+         fmt::format("{} names dimension {} in a map of dimension {}", what, i, dimension_),
+         span,
+         {},
+         {},
+         fmt::format("links have dimensions 0 to {}", dimension_)});
   };
   for (const PatternNode& node : side.pattern.nodes)
     for (const LabelEntry entry : node.label)
@@ -99,9 +101,9 @@ bool StructureChecker::label_lengths(PatternSide side, std::size_t reference,
       error.related.push_back({of->label_span, fmt::format("`{}`", of->name)});
       error.help = "give every node of the rule as many entries, `_` where it has no such link";
     } else {
-      error.message = fmt::format(
-          "node `{}` has {}, but `left` has no node whose orbit it could copy", node.name,
-          entries(node.label.size()));
+      error.message =
+          fmt::format("node `{}` has {}, but `left` has no node whose orbit it could copy",
+                      node.name, entries(node.label.size()));
       error.help = "name every created dart by a node of its own";
     }
     diagnostics_.report(std::move(error));
@@ -118,7 +120,9 @@ bool StructureChecker::hook_labels(const Pattern& left, const std::vector<NodeIn
     if (first_report(node))
       diagnostics_.report({DiagnosticKind::HookLabel,
                            fmt::format("the label of hook `{}` holds `_`", node.name),
-                           node.label_span, {}, {},
+                           node.label_span,
+                           {},
+                           {},
                            "the whole orbit is reached from the hook, so its label names a link at "
                            "every position"});
   }
@@ -143,15 +147,14 @@ bool StructureChecker::hook_counts(PatternSide side, const std::vector<NodeIndex
                            fmt::format("node `{}` is a hook twice", node.name), node.span});
     } else {
       const std::string& other = side.pattern.nodes[*first].name;
-      diagnostics_.report(
-          {DiagnosticKind::HookCount,
-           fmt::format("hooks `{}` and `{}` stand in one connected part of {}", other, node.name,
-                       side.where),
-           node.span,
-           {{side.pattern.nodes[*first].span, "the other hook"}},
-           {},
-           fmt::format("`{}` is reached from `{}`: drop it from the parameters", node.name,
-                       other)});
+      diagnostics_.report({DiagnosticKind::HookCount,
+                           fmt::format("hooks `{}` and `{}` stand in one connected part of {}",
+                                       other, node.name, side.where),
+                           node.span,
+                           {{side.pattern.nodes[*first].span, "the other hook"}},
+                           {},
+                           fmt::format("`{}` is reached from `{}`: drop it from the parameters",
+                                       node.name, other)});
     }
   }
   for (NodeIndex node = 0; node < part.size(); ++node) {
@@ -162,7 +165,9 @@ bool StructureChecker::hook_counts(PatternSide side, const std::vector<NodeIndex
       diagnostics_.report(
           {DiagnosticKind::HookCount,
            fmt::format("node `{}` of {} is not reached from any hook", unreached.name, side.where),
-           unreached.span, {}, {},
+           unreached.span,
+           {},
+           {},
            fmt::format("link it to a node that is, or make `{}` a hook", unreached.name)});
   }
   return good;
@@ -181,11 +186,11 @@ bool StructureChecker::double_links(PatternSide side) {
       good = false;
       const PatternNode& twice = side.pattern.nodes[node];
       if (first_report(twice))
-        diagnostics_.report({DiagnosticKind::DuplicateDimension,
-                             fmt::format("node `{}` has two {}-links in {}", twice.name, dimension,
-                                         side.where),
-                             span,
-                             {{first.span, fmt::format("{}-link of `{}`", dimension, twice.name)}}});
+        diagnostics_.report(
+            {DiagnosticKind::DuplicateDimension,
+             fmt::format("node `{}` has two {}-links in {}", twice.name, dimension, side.where),
+             span,
+             {{first.span, fmt::format("{}-link of `{}`", dimension, twice.name)}}});
       return;
     }
     mentions[node].push_back({dimension, span});

@@ -14,9 +14,13 @@ const PatternNode* reference_label(const Pattern& left, const std::vector<NodeIn
 
 bool no_paths(const Pattern& right, support::Diagnostics& diagnostics) {
   for (const PatternPath& path : right.paths)
-    diagnostics.report({support::DiagnosticKind::PathInRight,
-                        "a path of several links stands in `right`", path.span, {}, {},
-                        "name the darts in between: every link that a rule makes has two named ends"});
+    diagnostics.report(
+        {support::DiagnosticKind::PathInRight,
+         "a path of several links stands in `right`",
+         path.span,
+         {},
+         {},
+         "name the darts in between: every link that a rule makes has two named ends"});
   return right.paths.empty();
 }
 

@@ -30,6 +30,7 @@ class Differentiable {
       case ExprKind::Forces: report(expr.span, "forces have none"); break;
       case ExprKind::Embedding: {
         const gmap::EmbeddingDecl& value = schema_[expr.embedding];
+        followed_.clear();
         if (moves_with_positions(expr.embedding))
           report(expr.span, "`" + value.name + "` is computed from positions on its own");
         break;
@@ -49,7 +50,6 @@ class Differentiable {
       if (node.kind == ExprKind::Embedding && position_)
         moves |= node.embedding == *position_ || moves_with_positions(node.embedding);
     });
-    followed_.erase(id);
     return moves;
   }
 

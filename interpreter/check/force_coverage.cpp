@@ -180,7 +180,37 @@ class Coverage {
   std::set<const Expr*> done_;
 };
 
+/// Whether a derived value reads forces, itself or through others that are not in `seen`.
+bool reads_forces(const gmap::EmbeddingSchema& schema, EmbeddingId id,
+                  std::set<EmbeddingId>& seen) {
+  bool reads = false;
+  if (!seen.insert(id).second) return false;
+  for_each_node(schema[id].derivation, [&](const Expr& node) {
+    reads |= node.kind == ExprKind::ForceOn || node.kind == ExprKind::Forces;
+    if (node.kind == ExprKind::Embedding && !reads)
+      reads = reads_forces(schema, node.embedding, seen);
+  });
+  return reads;
+}
+
 }  // namespace
+
+void check_forces_start_somewhere(const Interaction& interaction, ItemContext& context) {
+  const gmap::EmbeddingSchema& schema = context.env.library->schema;
+  std::vector<ExprPtr> parts = {interaction.energy};
+  for (const ForceLine& line : interaction.forces) parts.push_back(line.value);
+  for (const Step& step : interaction.steps) parts.push_back(step.value);
+  for (const ExprPtr& part : parts)
+    for_each_node(part, [&](const Expr& node) {
+      std::set<EmbeddingId> seen;
+      if (node.kind != ExprKind::Embedding || !reads_forces(schema, node.embedding, seen)) return;
+      context.report({.kind = DiagnosticKind::RecursiveDefinition,
+                      .message = "a force cannot be computed from forces, and `" +
+                                 schema[node.embedding].name + "` reads them",
+                      .place = node.span,
+                      .related = {{schema[node.embedding].span, "declared here"}}});
+    });
+}
 
 void check_force_coverage(const Interaction& interaction, ItemContext& context) {
   if (!interaction.energy) return;

@@ -14,4 +14,7 @@ namespace gmsim::check {
 /// 0) do not matter at the end of a word, and arcs and paths of the pattern lead from node to node.
 void check_force_coverage(const Interaction& interaction, ItemContext& context);
 
+/// Forces cannot be computed from forces, not even through a derived value.
+void check_forces_start_somewhere(const Interaction& interaction, ItemContext& context);
+
 }  // namespace gmsim::check

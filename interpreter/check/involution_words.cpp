@@ -47,7 +47,9 @@ Word InvolutionGroup::product(const Word& a, const Word& b) const {
   return result;
 }
 
-Word InvolutionGroup::inverse(const Word& a) const { return normal(Word(a.rbegin(), a.rend())); }
+Word InvolutionGroup::inverse(const Word& a) const {
+  return normal(Word(a.rbegin(), a.rend()));
+}
 
 void InvolutionGroup::replace(std::uint8_t generator, std::uint8_t by) {
   for (std::uint8_t& letter : letter_)

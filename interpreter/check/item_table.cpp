@@ -182,9 +182,9 @@ std::vector<OrbitName> predeclared_orbits(int n) {
 }
 
 bool is_predeclared_orbit(std::string_view word) {
-  for (const OrbitName& orbit : predeclared_orbits(types::kMaxDimension))
-    if (orbit.name == word) return true;
-  return false;
+  // The highest dimension has them all.
+  static const std::vector<OrbitName> orbits = predeclared_orbits(types::kMaxDimension);
+  return std::ranges::find(orbits, word, &OrbitName::name) != orbits.end();
 }
 
 bool is_builtin_word(std::string_view word) {

@@ -17,7 +17,8 @@ std::vector<NodeLinks> written_links(const Pattern& pattern) {
   for (NodeIndex node = 0; node < pattern.nodes.size(); ++node) {
     const std::vector<LabelEntry>& label = pattern.nodes[node].label;
     for (std::size_t p = 0; p < label.size(); ++p)
-      if (label[p] != kBlank) links[node][label[p]] = LinkTarget{node, {static_cast<std::uint8_t>(p)}};
+      if (label[p] != kBlank)
+        links[node][label[p]] = LinkTarget{node, {static_cast<std::uint8_t>(p)}};
   }
   for (const PatternArc& arc : pattern.arcs) {
     links[arc.a][arc.dimension] = LinkTarget{arc.b, {}};

@@ -34,7 +34,8 @@ struct Contradiction {
 };
 
 /// What is known about the links around a match of `left` in any map: those it writes and those
-/// that follow from them by alpha_i alpha_j = alpha_j alpha_i (docs/theory.md, "links that follow").
+/// that follow from them by alpha_i alpha_j = alpha_j alpha_i (docs/theory.md, "links that
+/// follow").
 ///
 /// Nodes 0 .. left_count()-1 are those of `left`. Later numbers are corners: darts that are not
 /// matched but close a square two of whose links are known.

@@ -17,7 +17,8 @@ struct LinkProblem {
     Lost,      ///< C7: a kept node has the link in `left` and none in `right`
     Gained,    ///< C7: a kept node has the link in `right`, and nothing says where it led before
     Open,      ///< C7: a removed or created node without the link
-    OneSided,  ///< C7: the link stays at one end and is changed at the other, in `right` or by removal
+    OneSided,  ///< C7: the link stays at one end and is changed at the other, in `right` or by
+               ///< removal
     Cycle      ///< C8: links `dimension` and `other` of the node may not commute any more
   };
   Kind kind = Kind::Lost;

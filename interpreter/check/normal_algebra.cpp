@@ -30,7 +30,9 @@ Sum scaled(Sum sum, double factor) {
 }
 
 /// The sign of the first term: of a sum and its negative, one has +1.
-double sign_of(const Sum& sum) { return !sum.empty() && sum.begin()->second < 0 ? -1.0 : 1.0; }
+double sign_of(const Sum& sum) {
+  return !sum.empty() && sum.begin()->second < 0 ? -1.0 : 1.0;
+}
 
 std::vector<int> merged(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> both;
@@ -46,7 +48,9 @@ void add(Sum& sum, Product product, double factor) {
   if (std::abs(found->second) <= 1e-12 * std::abs(before)) sum.erase(found);
 }
 
-std::string text(const std::vector<int>& atoms) { return fmt::format("{}", fmt::join(atoms, ",")); }
+std::string text(const std::vector<int>& atoms) {
+  return fmt::format("{}", fmt::join(atoms, ","));
+}
 
 }  // namespace
 

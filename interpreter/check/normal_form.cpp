@@ -27,7 +27,9 @@ types::OrbitType commuting_links(int i, int n) {
   return type;
 }
 
-std::string text(types::OrbitType type) { return std::to_string(type.bits()); }
+std::string text(types::OrbitType type) {
+  return std::to_string(type.bits());
+}
 
 }  // namespace
 
@@ -167,9 +169,9 @@ NormalForms::Form NormalForms::compute(const Expr& expr) {
     case ExprKind::Frozen:
       return evaluate(arg(0));
     case ExprKind::Grad:
-      return value(atom("grad " + std::to_string(id(number(arg(0)))) + " " +
-                            std::to_string(id(number(arg(1)))),
-                        expr));
+      return value(atom(
+          "grad " + std::to_string(id(number(arg(0)))) + " " + std::to_string(id(number(arg(1)))),
+          expr));
   }
   GMSIM_CHECK(false, "an expression of no kind");
   return {};

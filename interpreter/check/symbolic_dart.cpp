@@ -11,7 +11,9 @@ namespace {
 constexpr std::size_t kMostDarts = 256;
 
 /// How far out a dart is named: fewer unknown links, then nearer rows.
-auto distance(const SymbolicDart& dart) { return std::pair(dart.walk.size(), dart.rows.size()); }
+auto distance(const SymbolicDart& dart) {
+  return std::pair(dart.walk.size(), dart.rows.size());
+}
 
 bool simpler(const SymbolicDart& a, const SymbolicDart& b) {
   return std::tuple(distance(a), a) < std::tuple(distance(b), b);

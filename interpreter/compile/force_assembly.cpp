@@ -82,6 +82,35 @@ NodeId ForceAssembly::sum(NodeId a, NodeId b) {
   return graph_->make(Op::Add, a, b);
 }
 
+namespace {
+
+/// Does y depend on one of `ends` other than through `middle`?
+bool passes_by(const ir::Graph& graph, NodeId y, NodeId middle, const std::vector<NodeId>& ends) {
+  std::vector<bool> reached(ir::index(y) + std::size_t{1}, false);
+  reached[ir::index(y)] = true;
+  for (std::uint32_t i = ir::index(y) + 1; i-- > 0;) {
+    if (!reached[i] || NodeId{i} == middle) continue;
+    if (std::find(ends.begin(), ends.end(), NodeId{i}) != ends.end()) return true;
+    for (const NodeId operand : graph[NodeId{i}].operands)
+      if (operand != ir::kNone) reached[ir::index(operand)] = true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<NodeId> ForceAssembly::gradient(NodeId energy, const std::vector<NodeId>& positions) {
+  for (const NodeId middle : walker_.differentiated()) {
+    const bool inside = ir::index(middle) < ir::index(energy);
+    if (!inside || passes_by(*graph_, energy, middle, positions)) continue;
+    const NodeId slope = ir::gradient(*graph_, energy, std::vector{middle})[0];
+    std::vector<NodeId> result = ir::gradient(*graph_, middle, positions);
+    for (NodeId& part : result) part = graph_->make(Op::Scale, slope, part);
+    return result;
+  }
+  return ir::gradient(*graph_, energy, positions);
+}
+
 void ForceAssembly::subtract_gradient(NodeId energy, Span energy_span) {
   std::vector<std::uint32_t> roles;
   std::vector<NodeId> positions;
@@ -90,9 +119,9 @@ void ForceAssembly::subtract_gradient(NodeId energy, Span energy_span) {
     roles.push_back(role);
     positions.push_back(walker_.positions()[role]);
   }
-  const std::vector<NodeId> gradient = ir::gradient(*graph_, energy, positions);
+  const std::vector<NodeId> slopes = gradient(energy, positions);
   for (std::size_t k = 0; k < roles.size(); ++k) {
-    if (graph_->is_zero(gradient[k])) continue;
+    if (graph_->is_zero(slopes[k])) continue;
     const auto root = std::find_if(roots_.begin(), roots_.end(), [&](const ForceRoot& known) {
       return known.role == roles[k];
     });
@@ -106,7 +135,7 @@ void ForceAssembly::subtract_gradient(NodeId energy, Span energy_span) {
                    "values");
       return;
     }
-    root->total = sum(graph_->make(Op::Neg, gradient[k]), root->total);
+    root->total = sum(graph_->make(Op::Neg, slopes[k]), root->total);
   }
 }
 

@@ -27,6 +27,10 @@ class ForceAssembly {
   [[nodiscard]] ir::NodeId explicit_part(const BodyForce& line);
   /// a + b; of two multiples of one vector the multiple by the sum of their factors.
   [[nodiscard]] ir::NodeId sum(ir::NodeId a, ir::NodeId b);
+  /// Derivatives of the energy by the positions. When it depends on them through one number alone
+  /// that the item differentiates itself (an angle, for its damping), those derivatives are shared.
+  [[nodiscard]] std::vector<ir::NodeId> gradient(ir::NodeId energy,
+                                                 const std::vector<ir::NodeId>& positions);
   void subtract_gradient(ir::NodeId energy, Span energy_span);
 
   SymbolicWalker& walker_;

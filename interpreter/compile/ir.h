@@ -96,8 +96,9 @@ class Graph {
   std::unordered_map<std::size_t, std::vector<NodeId>> table_;
 };
 
-/// Gradient of the Real node `y` with respect to each of `inputs` (Real or Vec3 input nodes), by
-/// reverse accumulation in the same graph. Frozen is a barrier; the derivative of norm(d) is
+/// Gradient of the Real node `y` with respect to each of `inputs` by reverse accumulation in the same
+/// graph. They are mostly input nodes, but may be any of Real or Vec3, which is then taken as
+/// independent of what it is computed from. Frozen is a barrier; the derivative of norm(d) is
 /// normalize(d), zero at zero length.
 [[nodiscard]] std::vector<NodeId> gradient(Graph& graph, NodeId y, std::span<const NodeId> inputs);
 

@@ -15,9 +15,12 @@ namespace {
 class Reverse {
  public:
   Reverse(Graph& graph, NodeId y, std::span<const NodeId> inputs)
-      : graph_(graph), adjoints_(index(y) + 1, kNone), depends_(index(y) + 1, false) {
+      : graph_(graph),
+        adjoints_(index(y) + 1, kNone),
+        leaf_(index(y) + 1, false),
+        depends_(index(y) + 1, false) {
     for (const NodeId input : inputs)
-      if (index(input) <= index(y)) depends_[index(input)] = true;
+      if (index(input) <= index(y)) leaf_[index(input)] = depends_[index(input)] = true;
     for (std::uint32_t i = 0; i <= index(y); ++i) {
       const Node& node = graph_[NodeId{i}];
       if (is_barrier(node.op)) continue;
@@ -29,8 +32,7 @@ class Reverse {
 
   void run() {
     for (auto i = static_cast<std::uint32_t>(adjoints_.size()); i-- > 0;) {
-      const bool leaf = operand_count(graph_[NodeId{i}].op) == 0;
-      if (!leaf && adjoints_[i] != kNone && !graph_.is_zero(adjoints_[i]))
+      if (!leaf_[i] && adjoints_[i] != kNone && !graph_.is_zero(adjoints_[i]))
         visit(NodeId{i}, adjoints_[i]);
     }
   }
@@ -167,6 +169,7 @@ class Reverse {
 
   Graph& graph_;
   std::vector<NodeId> adjoints_;
+  std::vector<bool> leaf_;     // is one of the inputs: nothing behind it is differentiated
   std::vector<bool> depends_;  // on one of the inputs; the others need no adjoint
 };
 

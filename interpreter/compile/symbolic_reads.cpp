@@ -215,6 +215,7 @@ SymbolicValue SymbolicWalker::grad(const Expr& expr) {
   }
   SymbolicValue value;
   value.parts = ir::gradient(*graph_, y, variable.parts);
+  differentiated_.push_back(y);
   return value;
 }
 

@@ -33,6 +33,7 @@ void SymbolicWalker::start(std::span<const DartId> nodes, ir::Graph* graph) {
   key_.clear();
   draws_.clear();
   positions_.clear();
+  differentiated_.clear();
   failure_.reset();
   depth_ = 0;
   frame_ = &item_frame_;

@@ -54,6 +54,8 @@ class SymbolicWalker {
   [[nodiscard]] const std::vector<Draw>& draws() const { return draws_; }
   /// By role: the input node of its position, kNone when it was not read.
   [[nodiscard]] const std::vector<ir::NodeId>& positions() const { return positions_; }
+  /// What grad() was asked of: numbers whose derivatives are there already.
+  [[nodiscard]] const std::vector<ir::NodeId>& differentiated() const { return differentiated_; }
 
  private:
   using Expr = types::Expr;
@@ -160,6 +162,7 @@ class SymbolicWalker {
   std::vector<std::uint32_t> key_;
   std::vector<Draw> draws_;
   std::vector<NodeId> positions_;
+  std::vector<NodeId> differentiated_;
   std::optional<SpecialiseFailure> failure_;
   std::vector<std::optional<EmbeddingId>> presences_;  // of parameters, their interaction's mark
 };

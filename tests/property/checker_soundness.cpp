@@ -16,8 +16,8 @@
 namespace gmsim::tests {
 namespace {
 
-constexpr double kAppliedShare = 0.20;       ///< of all trials: accepted, and applied to a map
-constexpr double kAlwaysValidShare = 0.99;   ///< of what never breaks a map: accepted
+constexpr double kAppliedShare = 0.20;      ///< of all trials: accepted, and applied to a map
+constexpr double kAlwaysValidShare = 0.99;  ///< of what never breaks a map: accepted
 constexpr std::size_t kListed = 10;
 
 struct Options {
@@ -31,9 +31,9 @@ Options read_options(int argc, char** argv) {
     const std::string name = argv[k], value = argv[k + 1];
     if (name == "--trials") options.trials = std::stol(value);
     if (name == "--seed")
-      options.seed = value == "fresh" ? (std::uint64_t{std::random_device{}()} << 32) ^
-                                            std::random_device{}()
-                                      : std::stoull(value);
+      options.seed = value == "fresh"
+                         ? (std::uint64_t{std::random_device{}()} << 32) ^ std::random_device{}()
+                         : std::stoull(value);
   }
   return options;
 }
@@ -99,9 +99,9 @@ bool bar(const char* what, bool met) {
 bool report(const TrialCounts& counts) {
   for (const auto& [verdict, count] : counts.by_verdict)
     std::cout << "  " << verdict << ": " << count << "\n";
-  std::cout << "accepted " << 100 * share(counts.accepted, counts.trials) << " %, accepted and applied "
-            << 100 * share(counts.applied, counts.trials) << " % of the trials, " << counts.applications
-            << " applications\n";
+  std::cout << "accepted " << 100 * share(counts.accepted, counts.trials)
+            << " %, accepted and applied " << 100 * share(counts.applied, counts.trials)
+            << " % of the trials, " << counts.applications << " applications\n";
   std::cout << "always valid by brute force: " << counts.always_valid << ", of these accepted "
             << 100 * share(counts.always_valid_accepted, counts.always_valid) << " %\n";
   for (const auto& [kind, rules] : counts.over_rejected)
@@ -112,16 +112,16 @@ bool report(const TrialCounts& counts) {
   list("UNSOUND values", counts.values_unsound);
   list("values that brute force finds always right, yet rejected", counts.values_over_rejected);
 
-  const double over = share(static_cast<long>(counts.values_over_rejected.size()),
-                            counts.value_checks);
+  const double over =
+      share(static_cast<long>(counts.values_over_rejected.size()), counts.value_checks);
   bool good = bar("no rule accepted that breaks a map", counts.unsound.empty());
   good &= bar("at least 20 % of the trials accepted and applied",
               share(counts.applied, counts.trials) >= kAppliedShare);
   good &= bar("at least 99 % of what is always valid accepted",
               share(counts.always_valid_accepted, counts.always_valid) >= kAlwaysValidShare);
   good &= bar("no orbit left without exactly one value", counts.values_unsound.empty());
-  good &= bar("at most 1 % of the value checks rejected without need",
-              over <= 1 - kAlwaysValidShare);
+  good &=
+      bar("at most 1 % of the value checks rejected without need", over <= 1 - kAlwaysValidShare);
   return good;
 }
 
@@ -137,7 +137,8 @@ int main(int argc, char** argv) {
   add_library(sound);
   std::cout << schemes << " schemes and " << sound.size() - schemes
             << " rules of the library to start from\n";
-  CheckerTrials trials(std::move(sound), from_schemes(unsound_schemes()), mesh_maps(), options.seed);
+  CheckerTrials trials(std::move(sound), from_schemes(unsound_schemes()), mesh_maps(),
+                       options.seed);
   trials.run(options.trials);
   return report(trials.counts()) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

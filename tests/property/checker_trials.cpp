@@ -28,8 +28,7 @@ std::optional<DiagnosticKind> first_error(const support::Diagnostics& diagnostic
 
 /// C1 to C6: a rule that breaks them says nothing that could be done to a map.
 bool ill_formed(const support::Diagnostics& diagnostics) {
-  for (const support::Diagnostic& diagnostic : diagnostics.all())
-    switch (diagnostic.kind) {
+  for (const support::Diagnostic& diagnostic : diagnostics.all()) switch (diagnostic.kind) {
       case DiagnosticKind::LinkDimension:
       case DiagnosticKind::DuplicateNode:
       case DiagnosticKind::LabelLength:
@@ -122,7 +121,8 @@ void CheckerTrials::accepted(const BaseRule& tried) {
                               to_string(application->before));
   };
   for (int k = 0; k < kHostsOfAccepted; ++k) look_at(apply_in_host(tried.rule, random_));
-  const TinyMap& map = maps_[static_cast<std::size_t>(below(random_, static_cast<int>(maps_.size())))];
+  const TinyMap& map =
+      maps_[static_cast<std::size_t>(below(random_, static_cast<int>(maps_.size())))];
   if (map.dimension == tried.rule.dimension) look_at(apply_somewhere(tried.rule, map, 5, random_));
   const TinyMap degenerate = random_tiny_map(tried.rule.dimension, random_);
   look_at(apply_somewhere(tried.rule, degenerate, 10, random_));

@@ -23,14 +23,14 @@ struct TrialCounts {
   long trials = 0;
   std::map<std::string, long> by_verdict;  ///< "accepted", "rejected: incident-arcs", …
   long accepted = 0;
-  long applied = 0;           ///< accepted and applied at least once
-  long applications = 0;      ///< of accepted rules
-  long always_valid = 0;      ///< mutants and random rules that never broke a map
+  long applied = 0;       ///< accepted and applied at least once
+  long applications = 0;  ///< of accepted rules
+  long always_valid = 0;  ///< mutants and random rules that never broke a map
   long always_valid_accepted = 0;
   std::vector<std::string> unsound;
   std::map<std::string, std::vector<std::string>> over_rejected;  ///< by kind of diagnostic
 
-  long value_checks = 0;      ///< orbit types of accepted rules that were looked at
+  long value_checks = 0;  ///< orbit types of accepted rules that were looked at
   long values_accepted = 0;
   std::vector<std::string> values_unsound;
   std::vector<std::string> values_over_rejected;

@@ -39,7 +39,8 @@ ExprPtr walked(const ExprPtr& dart, int i) {
   return with(make(ExprKind::Alpha, ValueKind::Dart, {dart}), [&](Expr& e) { e.number = i; });
 }
 ExprPtr local(std::uint32_t slot) {
-  return with(make(ExprKind::Local, ValueKind::Dart, {}), [&](Expr& e) { e.slot = types::Slot{slot}; });
+  return with(make(ExprKind::Local, ValueKind::Dart, {}),
+              [&](Expr& e) { e.slot = types::Slot{slot}; });
 }
 ExprPtr literal(double x) {
   return with(make(ExprKind::Literal, ValueKind::Real, {}),
@@ -116,7 +117,8 @@ class ExprMaker {
     }
   }
   ExprPtr dart() {
-    ExprPtr dart = darts_[static_cast<std::size_t>(below(random_, static_cast<int>(darts_.size())))];
+    ExprPtr dart =
+        darts_[static_cast<std::size_t>(below(random_, static_cast<int>(darts_.size())))];
     for (int k = below(random_, 3); k > 0; --k) dart = walked(dart, below(random_, n_ + 1));
     return dart;
   }
@@ -127,13 +129,13 @@ class ExprMaker {
                 [&](Expr& e) { e.embedding = types::EmbeddingId{embedding}; });
   }
   ExprPtr call(types::Builtin builtin, ValueKind type, std::vector<ExprPtr> args) {
-    return with(make(ExprKind::Call, type, std::move(args)),
-                [&](Expr& e) { e.builtin = builtin; });
+    return with(make(ExprKind::Call, type, std::move(args)), [&](Expr& e) { e.builtin = builtin; });
   }
   ExprPtr choice(int depth) {
     const ExprPtr free = with(make(ExprKind::Free, ValueKind::Bool, {dart()}),
                               [&](Expr& e) { e.number = below(random_, n_ + 1); });
-    const ExprPtr less = make(ExprKind::Less, ValueKind::Bool, {number(depth - 1), number(depth - 1)});
+    const ExprPtr less =
+        make(ExprKind::Less, ValueKind::Bool, {number(depth - 1), number(depth - 1)});
     return make(ExprKind::If, ValueKind::Real,
                 {chance(random_, 0.5) ? free : less, number(depth - 1), number(depth - 1)});
   }
@@ -142,12 +144,12 @@ class ExprMaker {
   }
   ExprPtr fold(int depth, ValueKind type) {
     const ExprKind kinds[] = {ExprKind::Polygon, ExprKind::Quotient, ExprKind::OrbitDarts};
-    const ExprPtr over = with(
-        make(kinds[n_ == 1 ? 1 + below(random_, 2) : below(random_, 3)], ValueKind::Darts, {dart()}),
-        [&](Expr& e) {
-          e.orbit = orbit();
-          e.orbit2 = orbit();
-        });
+    const ExprPtr over = with(make(kinds[n_ == 1 ? 1 + below(random_, 2) : below(random_, 3)],
+                                   ValueKind::Darts, {dart()}),
+                              [&](Expr& e) {
+                                e.orbit = orbit();
+                                e.orbit2 = orbit();
+                              });
     const std::uint32_t slot = next_slot_++;
     darts_.insert(darts_.end(), 3, local(slot));  // likely to be read
     ExprPtr body = type == ValueKind::Real ? number(depth - 1) : vector(depth - 1);
@@ -194,7 +196,8 @@ TEST_CASE("what E6 takes for equal is equal at every row of every match") {
     rules.push_back(rule_from_text(text, 3));
   int equal = 0, symmetric = 0, symmetric_equal = 0;
   for (int trial = 0; trial < 6000; ++trial) {
-    const check::Rule& rule = rules[static_cast<std::size_t>(below(random, static_cast<int>(rules.size())))];
+    const check::Rule& rule =
+        rules[static_cast<std::size_t>(below(random, static_cast<int>(rules.size())))];
     const gmap::EmbeddingSchema schema = schema_of(rule.dimension);
     const std::size_t positions = rule.left.nodes[0].label.size();
     const auto position = static_cast<std::uint8_t>(below(random, static_cast<int>(positions)));

@@ -19,10 +19,9 @@ struct ReferenceMatch {
 };
 
 /// The only match of `left` with these darts for its hooks, if there is one.
-[[nodiscard]] std::optional<ReferenceMatch> reference_match(const TinyMap& map,
-                                                            const check::Pattern& left,
-                                                            const std::vector<check::NodeIndex>& hooks,
-                                                            const std::vector<int>& hook_darts);
+[[nodiscard]] std::optional<ReferenceMatch> reference_match(
+    const TinyMap& map, const check::Pattern& left, const std::vector<check::NodeIndex>& hooks,
+    const std::vector<int>& hook_darts);
 
 struct ReferenceRewrite {
   TinyMap map;

@@ -14,8 +14,7 @@ using check::Rule;
 
 /// Rows for the label positions: involutions that commute where some node's links do.
 std::optional<PartialTable> random_rows(const Rule& rule, Random& random) {
-  const std::size_t positions =
-      rule.left.nodes.empty() ? 0 : rule.left.nodes.front().label.size();
+  const std::size_t positions = rule.left.nodes.empty() ? 0 : rule.left.nodes.front().label.size();
   std::vector<std::vector<bool>> commute(4, std::vector<bool>(4, false));
   for (const PatternNode& node : rule.left.nodes)
     for (std::size_t p = 0; p < positions; ++p)
@@ -43,7 +42,8 @@ bool instantiate(const Rule& rule, const PartialTable& rows, PartialTable& table
     for (NodeIndex node = 0; node < rule.left.nodes.size(); ++node)
       for (std::size_t p = 0; p < rule.left.nodes[node].label.size(); ++p) {
         const int i = rule.left.nodes[node].label[p];
-        if (i != kBlank && !table.set(i, dart(row, node), dart(rows.get(static_cast<int>(p), row), node)))
+        if (i != kBlank &&
+            !table.set(i, dart(row, node), dart(rows.get(static_cast<int>(p), row), node)))
           return false;
       }
     for (const PatternArc& arc : rule.left.arcs)

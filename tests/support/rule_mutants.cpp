@@ -28,8 +28,8 @@ class Mutation {
     std::string how;
     const int count = 1 + (chance(random_, 0.35) ? 1 : 0) + (chance(random_, 0.15) ? 1 : 0);
     for (int k = 0; k < count; ++k) {
-      const Change& change = kChanges[static_cast<std::size_t>(
-          below(random_, static_cast<int>(std::size(kChanges))))];
+      const Change& change =
+          kChanges[static_cast<std::size_t>(below(random_, static_cast<int>(std::size(kChanges))))];
       if (!(this->*change.apply)()) continue;
       how += (how.empty() ? "" : ", ") + std::string(change.name);
     }
@@ -82,7 +82,8 @@ class Mutation {
     const std::size_t p = static_cast<std::size_t>(pick(positions()));
     const auto entry = static_cast<LabelEntry>(below(random_, dimension() + 2) - 1);
     for (Pattern* side : sides(random_sides()))
-      if (const std::optional<NodeIndex> node = find(*side, *name)) side->nodes[*node].label[p] = entry;
+      if (const std::optional<NodeIndex> node = find(*side, *name))
+        side->nodes[*node].label[p] = entry;
     return true;
   }
   bool swap_label_entries() {
@@ -121,8 +122,10 @@ class Mutation {
     for (Pattern* side : sides(chance(random_, 0.7) ? kBoth : random_sides())) {
       for (PatternNode& node : side->nodes)
         for (LabelEntry& entry : node.label)
-          if (entry != kBlank) entry = static_cast<LabelEntry>(image[static_cast<std::size_t>(entry)]);
-      for (PatternArc& arc : side->arcs) arc.dimension = image[static_cast<std::size_t>(arc.dimension)];
+          if (entry != kBlank)
+            entry = static_cast<LabelEntry>(image[static_cast<std::size_t>(entry)]);
+      for (PatternArc& arc : side->arcs)
+        arc.dimension = image[static_cast<std::size_t>(arc.dimension)];
     }
     return true;
   }
@@ -240,7 +243,8 @@ class Mutation {
       side->nodes.push_back(twin);
       const std::vector<PatternArc> arcs = side->arcs;
       for (const PatternArc& arc : arcs)
-        if (arc.a == *node && arc.b == *node) side->arcs.push_back({arc.dimension, added, added, {}});
+        if (arc.a == *node && arc.b == *node)
+          side->arcs.push_back({arc.dimension, added, added, {}});
     }
     return true;
   }
@@ -385,78 +389,10 @@ const std::array<Mutation::Change, 21> Mutation::kChanges{{
     {"move hook", &Mutation::toggle_hook},
 }};
 
-void random_side(Pattern& side, int dimension, int first, int count, std::size_t positions,
-                 Random& random) {
-  for (int k = 0; k < count; ++k) {
-    PatternNode node;
-    node.name = std::string(1, static_cast<char>('a' + first + k));
-    node.label.assign(positions, kBlank);
-    side.nodes.push_back(node);
-  }
-  for (NodeIndex node = 0; node < side.nodes.size(); ++node)
-    for (int i = 0; i <= dimension; ++i) {
-      const int dice = below(random, 6);
-      if (dice < 2 && positions > 0) {
-        LabelEntry& entry = side.nodes[node].label[static_cast<std::size_t>(
-            below(random, static_cast<int>(positions)))];
-        if (entry == kBlank) entry = static_cast<LabelEntry>(i);
-      } else if (dice < 4) {
-        const auto other = static_cast<NodeIndex>(below(random, count));
-        side.arcs.push_back({i, node, dice == 2 ? node : other, {}});
-      }
-    }
-}
-
-/// Keeps the first mention of a dimension at a node.
-void drop_double_links(Pattern& side) {
-  std::vector<std::vector<int>> seen(side.nodes.size());
-  const auto fresh = [&](NodeIndex node, int i) {
-    if (std::count(seen[node].begin(), seen[node].end(), i) > 0) return false;
-    seen[node].push_back(i);
-    return true;
-  };
-  for (NodeIndex node = 0; node < side.nodes.size(); ++node)
-    for (LabelEntry& entry : side.nodes[node].label)
-      if (entry != kBlank && !fresh(node, entry)) entry = kBlank;
-  std::vector<PatternArc> arcs;
-  for (const PatternArc& arc : side.arcs) {
-    if (!fresh(arc.a, arc.dimension)) continue;
-    if (arc.b != arc.a && !fresh(arc.b, arc.dimension)) continue;
-    arcs.push_back(arc);
-  }
-  side.arcs = std::move(arcs);
-}
-
 }  // namespace
 
-Mutant mutate(const Rule& rule, Random& random) { return Mutation(rule, random).run(); }
-
-Rule random_rule(int dimension, Random& random) {
-  Rule rule;
-  rule.dimension = dimension;
-  const auto positions = static_cast<std::size_t>(below(random, 3));
-  const int left = 1 + below(random, 3);
-  random_side(rule.left, dimension, 0, left, positions, random);
-  // The hook's label has no blank; the others stay near it.
-  std::vector<int> dimensions;
-  for (int i = 0; i <= dimension; ++i) dimensions.push_back(i);
-  std::shuffle(dimensions.begin(), dimensions.end(), random);
-  for (std::size_t p = 0; p < positions; ++p)
-    rule.left.nodes[0].label[p] = static_cast<LabelEntry>(dimensions[p]);
-  rule.hooks = {0};
-  drop_double_links(rule.left);
-  // `right` starts as `left` or from nothing, and gets a little more.
-  if (chance(random, 0.8)) rule.right = rule.left;
-  const int added = below(random, 3);
-  if (added > 0 && rule.right.nodes.size() < 8)
-    random_side(rule.right, dimension, static_cast<int>(rule.right.nodes.size()), added, positions,
-                random);
-  drop_double_links(rule.right);
-  pair_nodes_by_name(rule);
-  for (NodeIndex node = 0; node < rule.left.nodes.size(); ++node)
-    rule.left.nodes[node].slot = types::Slot{node};
-  rule.frame_size = static_cast<std::uint32_t>(rule.left.nodes.size());
-  return rule;
+Mutant mutate(const Rule& rule, Random& random) {
+  return Mutation(rule, random).run();
 }
 
 }  // namespace gmsim::tests

@@ -42,8 +42,7 @@ ValueFate value_fate(const Application& application, const Rule& rule, types::Or
   std::map<int, std::set<NodeIndex>> writers;
   for (const std::vector<int>& row : application.after.darts)
     for (const NodeIndex node : assigned) writers[new_orbit[row[node]]].insert(node);
-  for (const auto& [orbit, nodes] : writers)
-    fate.assigned_apart |= nodes.size() < assigned.size();
+  for (const auto& [orbit, nodes] : writers) fate.assigned_apart |= nodes.size() < assigned.size();
   std::map<int, std::set<int>> sources;
   const TinyMap& after = application.after.map;
   for (int d = 0; d < after.size(); ++d) {

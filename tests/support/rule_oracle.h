@@ -31,8 +31,8 @@ struct Application {
 /// What becomes of the values of one orbit type at an application, where the rule gives `assigned`
 /// nodes of `right` values of their own, all different.
 struct ValueFate {
-  bool missing = false;   ///< an orbit of created darts without an assigned node
-  bool several = false;   ///< an orbit without an assigned node and with darts of several old ones
+  bool missing = false;  ///< an orbit of created darts without an assigned node
+  bool several = false;  ///< an orbit without an assigned node and with darts of several old ones
   bool assigned_apart = false;  ///< an orbit with one assigned node that lacks another
 };
 [[nodiscard]] ValueFate value_fate(const Application& application, const check::Rule& rule,

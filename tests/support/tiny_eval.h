@@ -35,8 +35,8 @@ class TinyEval {
 
   const TinyMap& map_;
   const gmap::EmbeddingSchema& schema_;
-  std::map<std::uint8_t, std::vector<int>> orbits_;      // by orbit type: dart -> orbit
-  std::vector<std::vector<Vector>> values_;              // by embedding, by orbit
+  std::map<std::uint8_t, std::vector<int>> orbits_;  // by orbit type: dart -> orbit
+  std::vector<std::vector<Vector>> values_;          // by embedding, by orbit
   std::map<std::uint32_t, int> locals_;
 };
 

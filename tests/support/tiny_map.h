@@ -54,9 +54,9 @@ class PartialTable {
   bool set(int generator, int a, int b);
 
   struct Style {
-    double loop = 0.2;   ///< chance to leave an element fixed
-    double join = 0.3;   ///< chance to link it to one that is there
-    int soft_limit = 30; ///< beyond this many elements, new ones only where nothing else works
+    double loop = 0.2;    ///< chance to leave an element fixed
+    double join = 0.3;    ///< chance to link it to one that is there
+    int soft_limit = 30;  ///< beyond this many elements, new ones only where nothing else works
   };
   /// Defines everything that is undefined; false when it grew out of hand.
   bool complete(Random& random, const Style& style);

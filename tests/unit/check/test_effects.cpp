@@ -22,8 +22,9 @@ std::string in_words(const check::RuleLibrary& library, const check::Footprint& 
   return "reads " + names(library, footprint.reads) + " over " +
          types::to_string(footprint.reads_links) + ", writes " + names(library, footprint.writes) +
          " and links " + types::to_string(footprint.writes_links) +
-         (footprint.creates_darts ? ", creates" : "") + (footprint.removes_darts ? ", removes" : "") +
-         (footprint.reads_forces ? ", forces" : "") + (footprint.reads_time ? ", time" : "");
+         (footprint.creates_darts ? ", creates" : "") +
+         (footprint.removes_darts ? ", removes" : "") + (footprint.reads_forces ? ", forces" : "") +
+         (footprint.reads_time ? ", time" : "");
 }
 
 }  // namespace

@@ -53,9 +53,10 @@ TEST_CASE("E1: a created orbit needs a value or a default") {
                {"missing-value: `heat` has no value on the vertex that the rule creates at `m`"}}});
   check_rows("embedding heat : real on vertex = 20;\n", {{kSplit + "}"}});
   check_rows("embedding heat : real on vertex optional;\n", {{kSplit + "}"}});
-  check_rows("embedding share : real on <1> extensive;\n",
-             {{kSplit + "}",
-               {"missing-value: `share` has no value on the orbit <1> that the rule creates at `m`"}}});
+  check_rows(
+      "embedding share : real on <1> extensive;\n",
+      {{kSplit + "}",
+        {"missing-value: `share` has no value on the orbit <1> that the rule creates at `m`"}}});
   // The faces stay what they were.
   check_rows("embedding heat : real on face;\n", {{kSplit + "}"}});
   check_rows("derived heat : real on vertex(a) = 1;\n", {{kSplit + "}"}});
@@ -64,14 +65,14 @@ TEST_CASE("E1: a created orbit needs a value or a default") {
 }
 
 TEST_CASE("E2: an orbit has one value") {
-  check_rows("embedding heat : real on edge;\n",
-             {{kSew + "a.heat = 1; b.heat = 2; }",
-               {"several-values: one edge is given two values: `a` and `b` lie in it"}},
-              {kSew + "a.heat = 1; a.heat = 2; }",
-               {"several-values: `a.heat` is given two values"}},
-              {kSew + "a.heat = 1; }"},
-              // The same value twice is one value.
-              {kSew + "a.heat = a.heat + b.heat; b.heat = b.heat + a.heat; }"}});
+  check_rows(
+      "embedding heat : real on edge;\n",
+      {{kSew + "a.heat = 1; b.heat = 2; }",
+        {"several-values: one edge is given two values: `a` and `b` lie in it"}},
+       {kSew + "a.heat = 1; a.heat = 2; }", {"several-values: `a.heat` is given two values"}},
+       {kSew + "a.heat = 1; }"},
+       // The same value twice is one value.
+       {kSew + "a.heat = a.heat + b.heat; b.heat = b.heat + a.heat; }"}});
   check_rows("embedding heat : real on <0>;\n", {{kSew + "a.heat = 1; b.heat = 2; }"}});
 }
 
@@ -103,20 +104,33 @@ TEST_CASE("E3 and E4: joined orbits need a value or a policy") {
 }
 
 TEST_CASE("E6: a value is the same from every dart of its orbit") {
-  const auto split = [](const std::string& value) {
-    return kSplit + "m.heat = " + value + "; }";
-  };
-  const std::string heat = "embedding heat : real on vertex;\nembedding at : vec3 on vertex merge mean = (0, 0, 0);\n";
+  const auto split = [](const std::string& value) { return kSplit + "m.heat = " + value + "; }"; };
+  const std::string heat =
+      "embedding heat : real on vertex;\nembedding at : vec3 on vertex merge mean = (0, 0, 0);\n";
   for (const std::string value :
-       {"0.5 * (a.heat + a@0.heat)", "a.heat + 0.5 * (a@0.heat - a.heat)", "a.heat * a@0.heat",
-        "a.heat / 2 + a@0.heat / 2", "(a.heat - a@0.heat)^2", "abs(a.heat - a@0.heat)",
-        "norm(a@0.at - a.at)", "dot(a.at, a@0.at)", "norm(cross(a.at, a@0.at))",
-        "min(a.heat, a@0.heat)", "max(1, max(a@0.heat, a.heat))", "a@2@0.heat + a@2.heat", "a@0@1.heat + a@1.heat",
-        "mean(x in edge(a) / vertex : x.heat)", "sum(x in face(a) / vertex : x.heat) + sum(x in face(a@2) / vertex : x.heat)",
-        "if a.heat == a@0.heat then 1 else 2", "count(x in edge(a))",
-        "if free(a, 2) then 1 else 2", "sum(x in polygon(a) : x.heat) + sum(x in polygon(a@2) : x.heat)",
-        "norm(sum(x in polygon(a) : cross(x.at, x@0.at)) - sum(x in polygon(a@2) : cross(x.at, x@0.at)))",
-        "norm(normalize(a.at - a@0.at))", "1"}) {
+       {"0.5 * (a.heat + a@0.heat)",
+        "a.heat + 0.5 * (a@0.heat - a.heat)",
+        "a.heat * a@0.heat",
+        "a.heat / 2 + a@0.heat / 2",
+        "(a.heat - a@0.heat)^2",
+        "abs(a.heat - a@0.heat)",
+        "norm(a@0.at - a.at)",
+        "dot(a.at, a@0.at)",
+        "norm(cross(a.at, a@0.at))",
+        "min(a.heat, a@0.heat)",
+        "max(1, max(a@0.heat, a.heat))",
+        "a@2@0.heat + a@2.heat",
+        "a@0@1.heat + a@1.heat",
+        "mean(x in edge(a) / vertex : x.heat)",
+        "sum(x in face(a) / vertex : x.heat) + sum(x in face(a@2) / vertex : x.heat)",
+        "if a.heat == a@0.heat then 1 else 2",
+        "count(x in edge(a))",
+        "if free(a, 2) then 1 else 2",
+        "sum(x in polygon(a) : x.heat) + sum(x in polygon(a@2) : x.heat)",
+        "norm(sum(x in polygon(a) : cross(x.at, x@0.at)) - sum(x in polygon(a@2) : cross(x.at, "
+        "x@0.at)))",
+        "norm(normalize(a.at - a@0.at))",
+        "1"}) {
     CAPTURE(value);
     CHECK(joined(messages_of(heat + split(value))) == "");
   }
@@ -134,7 +148,8 @@ TEST_CASE("E6: a value is the same from every dart of its orbit") {
 }
 
 TEST_CASE("E6 looks through let and function") {
-  const std::string heat = "embedding heat : real on vertex;\nfunction ends(a) = a.heat + a@0.heat;\n";
+  const std::string heat =
+      "embedding heat : real on vertex;\nfunction ends(a) = a.heat + a@0.heat;\n";
   check_rows(heat, {{kSplit + "let s = ends(a); m.heat = s / 2; }"},
                     {kSplit + "let near = a.heat; let far = a@0.heat; m.heat = near * far; }"},
                     {kSplit + "let near = a.heat; m.heat = near; }",
@@ -144,7 +159,8 @@ TEST_CASE("E6 looks through let and function") {
 
 TEST_CASE("E6 uses the links of the match") {
   // `b` is the other side: its darts are those of `a` over link 2.
-  const std::string heat = "embedding heat : real on edge merge mean;\nembedding up : real on vertex merge mean;\n";
+  const std::string heat =
+      "embedding heat : real on edge merge mean;\nembedding up : real on vertex merge mean;\n";
   check_rows(heat,
              {{"rule r(a) { left { a<0> -2- b<0>; } right { a -2- b; } a.heat = a.up + b@0.up; }"},
               {"rule r(a) { left { a<0> -2- b<0>; } right { a -2- b; } a.heat = a.up; }",
@@ -163,16 +179,17 @@ TEST_CASE("the message of E6 shows both forms") {
       "    m.position = a.position;\n"
       "    m.corner_mass = 0;\n"
       "}\n");
-  CHECK(checked.messages() ==
-        "error: the value of `m.position` depends on the dart of the vertex that it is evaluated at "
-        "[not-invariant]\n"
-        " --> my.rule:5:18\n"
-        "  |\n"
-        "5 |     m.position = a.position;\n"
-        "  |                  ^^^^^^^^^^\n"
-        "note: moving along link 0 gives `a@0.position` instead of `a.position`\n"
-        "help: write a value that is the same from every such dart, for example a mean or a sum "
-        "over them\n");
+  CHECK(
+      checked.messages() ==
+      "error: the value of `m.position` depends on the dart of the vertex that it is evaluated at "
+      "[not-invariant]\n"
+      " --> my.rule:5:18\n"
+      "  |\n"
+      "5 |     m.position = a.position;\n"
+      "  |                  ^^^^^^^^^^\n"
+      "note: moving along link 0 gives `a@0.position` instead of `a.position`\n"
+      "help: write a value that is the same from every such dart, for example a mean or a sum "
+      "over them\n");
 }
 
 TEST_CASE("library-like rules are accepted") {

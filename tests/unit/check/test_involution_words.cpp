@@ -21,7 +21,8 @@ Word random_word(Random& random, int letters, int length) {
 /// Rewrites a word at random by the laws: inserts and removes squares, exchanges what commutes.
 Word disguised(Word word, const InvolutionGroup& group, Random& random) {
   for (int k = 0; k < 30; ++k) {
-    const std::size_t at = static_cast<std::size_t>(tests::below(random, static_cast<int>(word.size()) + 1));
+    const std::size_t at =
+        static_cast<std::size_t>(tests::below(random, static_cast<int>(word.size()) + 1));
     const auto begin = word.begin() + static_cast<std::ptrdiff_t>(at);
     if (tests::chance(random, 0.3)) {
       const auto letter =

@@ -196,6 +196,10 @@ TEST_CASE("definitions in a circle are reported once") {
       {"recursive-definition",
        "operation o on vertex(a) { apply q(a); } operation q on vertex(a) { apply «o»(a); }"},
       {"recursive-definition", in_law("force a on dart = «force_on(vertex(a))»;")},
+      {"recursive-definition",
+       "derived push : vec3 [N] on vertex(v) = force_on(vertex(v));"
+       "derived twice : vec3 [N] on vertex(v) = 2 * v.push;" +
+           in_law("force a on dart = «a.twice»;")},
   });
 }
 
@@ -251,6 +255,8 @@ TEST_CASE("an interaction gives a force wherever its energy pulls") {
                         " energy k * sum(x in polygon(a) : dot(«x.position», x.position)); force a on dart; }"},
       {"force-orbit", in_law("force a on «edge» = (0, 0, 0);")},
       {"not-differentiable", in_law("energy «floor(a.mass)» * (1 [m^2/s^2]); force a on dart;")},
+      {"not-differentiable", in_law("force a on dart = grad(k * «a.spread»^2 , a.position);") +
+                                 "derived spread : real [m] on vertex(v) = norm(v.position);"},
       {"not-differentiable",
        "derived far : real [m] on vertex(v) = norm(v.position);" +
            in_law("energy k * «a.far»^2; force a on dart;")},

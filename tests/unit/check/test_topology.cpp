@@ -65,7 +65,9 @@ TEST_CASE("operations that break some maps are rejected") {
 
 TEST_CASE("C1 to C6: what a pattern must be") {
   check_rows({
-      {"a*<0 3> => a<0 3>", 2, {"link-dimension: a label names dimension 3 in a map of dimension 2"}},
+      {"a*<0 3> => a<0 3>",
+       2,
+       {"link-dimension: a label names dimension 3 in a map of dimension 2"}},
       {"a*<0> | a-3-a => a<0> | a-3-a",
        2,
        {"link-dimension: a link names dimension 3 in a map of dimension 2",
@@ -79,10 +81,13 @@ TEST_CASE("C1 to C6: what a pattern must be") {
        {"label-length: node `b` has no label, but `a` has a label of 1 entry"}},
       {"=> a<0>",
        2,
-       {"label-length: node `a` has a label of 1 entry, but `left` has no node whose orbit it could "
+       {"label-length: node `a` has a label of 1 entry, but `left` has no node whose orbit it "
+        "could "
         "copy"}},
       {"a*<0 _> => a<0 _>", 2, {"hook-label: the label of hook `a` holds `_`"}},
-      {"a*<0> b<0> => a<0> b<0>", 2, {"hook-count: node `b` of `left` is not reached from any hook"}},
+      {"a*<0> b<0> => a<0> b<0>",
+       2,
+       {"hook-count: node `b` of `left` is not reached from any hook"}},
       {"a*<0> b*<0> | a-2-b => a<0> b<0> | a-2-b",
        2,
        {"hook-count: hooks `a` and `b` stand in one connected part of `left`"}},
@@ -156,7 +161,8 @@ TEST_CASE("a link that follows from the others is used, and named in a warning")
   const std::vector<Implied> rows{
       {"a*<> b<> c<> d<> | a-0-b a-2-d b-2-c => a<> b<> c<> d<> | a-0-b a-2-a b-2-b c-2-c d-2-d",
        "write `c -0- d` in `left` and `right`"},
-      {"a*<> b<> c<> d<> | d-0-c a-2-d b-2-c => a<> b<> c<> d<> | a-0-b d-0-c a-2-a b-2-b c-2-c d-2-d",
+      {"a*<> b<> c<> d<> | d-0-c a-2-d b-2-c => a<> b<> c<> d<> | a-0-b d-0-c a-2-a b-2-b c-2-c "
+       "d-2-d",
        "write `a -0- b` in `left`"},
       {"a*<0> b<_> | a-2-b => a<0> b<_> | a-2-a b-2-b", "write `b<0>` in `left` and `right`"},
   };

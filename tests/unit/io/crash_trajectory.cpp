@@ -228,7 +228,7 @@ int parent(bool kills, int count, std::uint32_t seed, const std::filesystem::pat
   std::mt19937 random(seed);
   int complete = 0, partial = 0, none = 0;
   for (int i = 0; i < count; ++i) {
-    constexpr std::array<std::size_t, 3> kPoints = {12, 100, 1000};
+    constexpr std::array<std::size_t, 3> kPoints = {30, 300, 1000};
     const Trial trial{folder / fmt::format("run{}.vtkhdf", i),
                       static_cast<std::uint32_t>(random() % 1000),
                       kPoints[random() % kPoints.size()]};
