@@ -38,13 +38,17 @@ struct OutputPlan {
   bool sync = false;
 };
 
-/// A value that `gmsim verify` compares after (or during) the run.
+/// A value that `gmsim verify` compares after (or during) the run:
+/// `{ value: EXPR, at: end | TIME, equals: NUMBER | [x, y, z], within: NUMBER }`, or with `at_least`,
+/// `at_most` in place of `equals`. `point: N` (and `body: NAME` where there are several) says at
+/// which point of the mesh a value such as `position` is meant.
 struct Expectation {
-  engine::DartExpression value;   ///< real; its dart is the map's first
+  engine::DartExpression value;   ///< real or vec3
+  gmap::DartId dart = gmap::kNoDart;  ///< of the point; of the map's first vertex where none is named
   std::string text;
   double at = 0;                  ///< s
-  std::optional<double> equals;   ///< with `within`
-  double within = 0;              ///< absolute
+  std::vector<double> equals;     ///< 1 or 3 numbers, or empty; with `within`
+  double within = 0;              ///< absolute, for each number
   std::optional<double> at_least, at_most;
   support::Span span;
 };
