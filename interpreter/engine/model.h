@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,7 @@ struct IntegratorSettings {
   double atol_velocity = 0;     ///< m/s; 0: from atol_position and the first step
   double dt_min = 0;            ///< s
   double dt_max = 0;            ///< s; 0: no limit
+  std::optional<support::Span> span = std::nullopt;  ///< where the scene asks for it
 };
 
 }  // namespace gmsim::engine

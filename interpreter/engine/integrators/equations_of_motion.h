@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/force_field.h"
+#include "engine/integrators/phase_point.h"
+#include "engine/integrators/prescribed_motion.h"
+#include "support/diagnostic.h"
+
+namespace gmsim::engine {
+
+/// Newton's second law for all vertices, and what moves by decree instead. Borrows both.
+class EquationsOfMotion {
+ public:
+  EquationsOfMotion(ForceField& field, PrescribedMotions& prescribed)
+      : field_(field), prescribed_(prescribed) {}
+
+  /// 1/kg by row; 0 for vertices that forces cannot move (fixed, prescribed) and for dead rows.
+  void set_inverse_mass(std::vector<double> inverse_mass) {
+    inverse_mass_ = std::move(inverse_mass);
+  }
+  [[nodiscard]] std::span<const double> inverse_mass() const { return inverse_mass_; }
+
+  /// Prescribed motion starts from here; to be called before the stages of a step.
+  void begin_step(const PhasePoint& now) { prescribed_.begin_step(now); }
+  /// Puts prescribed vertices where they are at `time`, then evaluates all forces there.
+  bool evaluate(Motion& motion, double time, double dt, std::span<VertexRecord> force);
+  /// The forces only.
+  bool evaluate_forces(const Motion& motion, double time, double dt, std::span<VertexRecord> force);
+
+  [[nodiscard]] bool reads_velocity() const { return field_.reads_velocity(); }
+  [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
+  /// Why the last evaluation failed.
+  [[nodiscard]] const std::optional<support::Diagnostic>& error() const;
+
+ private:
+  ForceField& field_;
+  PrescribedMotions& prescribed_;
+  std::vector<double> inverse_mass_;
+  std::uint64_t evaluations_ = 0;
+};
+
+}  // namespace gmsim::engine
