@@ -42,8 +42,10 @@ class ForceField {
   /// estimate and later for implicit methods.
   virtual bool product(const Motion& motion, double time, std::span<const VertexRecord> dx,
                        std::span<const VertexRecord> dv, std::span<VertexRecord> out) = 0;
-  /// For every match: the largest eigenvalue of its own stiffness against the corner masses it
-  /// stands on (1/s^2), and likewise for damping (1/s): the bound that survives tearing.
+  /// Upper bounds of the largest eigenvalue of the stiffness against the masses (1/s^2), and of the
+  /// damping (1/s), from single elements and their corner masses: they stay bounds when elements
+  /// are torn apart. `where` and `interaction` (number in the model) name a match in the stiffest
+  /// element. Vertices that are `fixed` are left out.
   struct ElementBound {
     double stiffness = 0;
     double damping = 0;
@@ -51,8 +53,14 @@ class ForceField {
     std::uint32_t interaction = 0;
   };
   virtual bool element_bound(const Motion& motion, double time, ElementBound& bound) = 0;
+  /// Warnings for matches where a vector between positions has no length, so that a force along it
+  /// has no direction and is left out (a spring whose ends coincide); each interaction and orbit is
+  /// named once in the life of this object. A pass of its own, so that evaluate() pays nothing for
+  /// it; meant for the start and for frames: in between, ends that coincide exactly and part again
+  /// have changed nothing that a user would see.
+  virtual std::vector<support::Diagnostic> notices(const Motion& motion, double time) = 0;
 
-  /// Does any force read velocities, or time?
+  /// Does any force read velocities, or the clock (time, dt, step)?
   [[nodiscard]] virtual bool reads_velocity() const = 0;
   [[nodiscard]] virtual bool reads_time() const = 0;
   /// Takes over changed topology and values; `touched` as in Effects.

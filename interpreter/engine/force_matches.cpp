@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "engine/force_matches.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "gmap/orbit_walk.h"
+
+namespace gmsim::engine {
+
+ForceMatches::ForceMatches(const ForceContext& context, std::uint32_t number)
+    : context_(context),
+      pattern_(context.pattern(number)),
+      shapes_(context.world, context.body(number),
+              compile::wanted_forces(context.body(number), true), context.sources),
+      matcher_(context.state),
+      reader_(context.state) {}
+
+std::optional<support::Diagnostic> ForceMatches::find_all(const Visit& visit) {
+  const gmap::GMap& map = context_.state.map;
+  std::vector<bool> seen(map.dart_end(), false);
+  for (std::uint32_t i = 0; i < seen.size(); ++i) {
+    if (seen[i] || !map.alive(DartId{i})) continue;
+    orbit_.clear();
+    gmap::for_each_dart(map, pattern_.orbit, DartId{i}, [&](DartId d) {
+      seen[types::index(d)] = true;
+      orbit_.push_back(d);
+    });
+    if (Diagnostic error = find_in_orbit(visit)) return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<support::Diagnostic> ForceMatches::find_at(DartId dart, const Visit& visit) {
+  orbit_.clear();
+  gmap::for_each_dart(context_.state.map, pattern_.orbit, dart,
+                      [&](DartId d) { orbit_.push_back(d); });
+  return find_in_orbit(visit);
+}
+
+std::optional<support::Diagnostic> ForceMatches::find_in_orbit(const Visit& visit) {
+  if (!carries(orbit_.front())) return std::nullopt;
+  std::sort(orbit_.begin(), orbit_.end());
+  DartId hook = gmap::kNoDart;
+  if (Diagnostic error = choose_dart(hook)) return error;
+  return hook == gmap::kNoDart ? std::nullopt : enter(visit);
+}
+
+bool ForceMatches::carries(DartId d) const {
+  if (!pattern_.presence) return true;
+  const gmap::EmbeddingStore& store = context_.state.store;
+  if (!store.in_use(*pattern_.presence)) return false;
+  const std::span<const double> mark = store.get(*pattern_.presence, d);
+  return !mark.empty() && mark[0] != 0.0;
+}
+
+std::optional<support::Diagnostic> ForceMatches::choose_dart(DartId& chosen) {
+  first_.resize(context_.state.map.dart_end(), false);
+  const auto kept = std::find_if(orbit_.begin(), orbit_.end(),
+                                 [&](DartId d) { return bool{first_[types::index(d)]}; });
+  const bool decided = kept != orbit_.end();
+  const std::span<const DartId> candidates =
+      decided ? std::span<const DartId>(&*kept, 1) : std::span<const DartId>(orbit_);
+  bool without_first = false;
+  for (const DartId d : candidates) {
+    frame_.reset(pattern_.frame_size);
+    if (!matcher_.match(pattern_.match, {&d, 1}, frame_, found_)) {
+      if (matcher_.failure().reason == MatchFailure::Reason::Error) return matcher_.failure().error;
+      continue;
+    }
+    bool first = decided || pattern_.first == nullptr;
+    if (!first) {
+      if (Diagnostic error = judge_first(d, first)) return error;
+      without_first = without_first || !first;
+    }
+    if (!first) continue;
+    if (pattern_.first != nullptr) first_[types::index(d)] = true;
+    chosen = d;
+    return std::nullopt;
+  }
+  if (!without_first) return std::nullopt;
+  return support::Diagnostic{
+      support::DiagnosticKind::NoMatch,
+      fmt::format("no dart of the {} orbit of dart {} meets the condition of `first`",
+                  types::to_string(pattern_.orbit), types::index(orbit_.front())),
+      pattern_.first->span};
+}
+
+std::optional<support::Diagnostic> ForceMatches::judge_first(DartId d, bool& first) {
+  frame_.set(pattern_.first_dart, d);
+  if (matcher_.evaluator().evaluate_bool(*pattern_.first, frame_, first)) return std::nullopt;
+  first = false;
+  EvalFailure failure = matcher_.evaluator().take_failure();
+  if (failure.missing_optional) return std::nullopt;
+  return std::move(failure.diagnostic);
+}
+
+std::optional<support::Diagnostic> ForceMatches::enter(const Visit& visit) {
+  match_.key = orbit_.front();
+  match_.nodes.clear();
+  for (compile::Column c = 0; c < pattern_.match.nodes.size(); ++c)
+    match_.nodes.push_back(found_.dart(0, c));
+  const std::optional<std::uint32_t> shape = shapes_.classify(match_.nodes, match_.roles);
+  if (!shape) {
+    if (shapes_.failure().not_here) return std::nullopt;
+    return shapes_.failure().diagnostic;
+  }
+  match_.shape = *shape;
+  while (inputs_.size() < shapes_.size())
+    inputs_.push_back(std::make_unique<ShapeInputs>(context_, shapes_[inputs_.size()]));
+  match_.own.clear();
+  if (Diagnostic error = inputs_[*shape]->read_own(reader_, match_.roles.roles, match_.own))
+    return error;
+  visit(match_);
+  return std::nullopt;
+}
+
+}  // namespace gmsim::engine

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "compile/ir.h"
+#include "compile/specialise.h"
+#include "engine/force_inputs.h"
+
+namespace gmsim::engine {
+
+/// Something to compute of every match of a shape: a graph, its roots, and where the inputs that
+/// these depend on come from.
+struct ForceProgram {
+  struct LiveInput {
+    std::uint32_t number = 0;  ///< in graph.inputs()
+    InputOrigin origin;
+  };
+  compile::ir::Graph graph;
+  std::vector<compile::ir::NodeId> roots;
+  std::vector<LiveInput> inputs;
+
+  [[nodiscard]] bool reads(InputOrigin::Kind kind) const;
+};
+
+// Where a shape has a condition that does not hold, all results are zero.
+
+/// The force on each vertex of Shape::forces, in order (N).
+[[nodiscard]] ForceProgram force_program(const compile::Shape& shape, const ShapeInputs& inputs);
+/// One root, the energy (J); no root when the shape has none.
+[[nodiscard]] ForceProgram energy_program(const compile::Shape& shape, const ShapeInputs& inputs);
+/// The derivative of each force along a change of all positions and velocities, which are inputs of
+/// the kinds PositionChange and VelocityChange.
+[[nodiscard]] ForceProgram product_program(const compile::Shape& shape, const ShapeInputs& inputs);
+/// One root, 1 where a force or the energy needs the direction of a vector that has no length, else
+/// 0; no root when that cannot be. Only vectors between positions count: a velocity may be zero.
+[[nodiscard]] ForceProgram direction_program(const compile::Shape& shape,
+                                             const ShapeInputs& inputs);
+
+}  // namespace gmsim::engine

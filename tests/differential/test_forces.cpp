@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+// The forces of whole models: single matches summed up, the laws of mechanics, derivatives, bounds.
+#include <doctest/doctest.h>
+
+#include "engine/ir_evaluate.h"
+#include "force_world.h"
+#include "gmap/mesh_builders.h"
+
+using namespace gmsim;
+using namespace gmsim::tests;
+
+namespace {
+
+std::vector<std::pair<std::string, gmap::Mesh>> meshes() {
+  return {{"mix2", gmap::grid(3, 2, 3, 2, gmap::GridCells::Mix2)},
+          {"tri4", gmap::grid(2, 2, 2, 2, gmap::GridCells::Tri4)},
+          {"hexes", gmap::box({2, 2, 1}, {2, 2, 1}, gmap::BoxElements::Hexes)},
+          {"tets", gmap::box({1, 1, 1}, {1, 1, 1}, gmap::BoxElements::Tets5)},
+          {"chain", gmap::chain(4, 4)}};
+}
+
+bool is_internal(const compile::InteractionBody& body) { return !body.external; }
+bool any(const compile::InteractionBody&) { return true; }
+
+std::unique_ptr<engine::ForceField> tree_forces(ForceWorld& world, const engine::Model& model) {
+  support::Diagnostics diagnostics;
+  auto forces = engine::make_tree_forces(world.state(), model, diagnostics);
+  REQUIRE_MESSAGE(forces, diagnostics.all().front().message);
+  return forces;
+}
+
+Records evaluate(engine::ForceField& forces, const engine::Motion& motion, double time = 0) {
+  Records force(motion.position.size());
+  REQUIRE_MESSAGE(forces.evaluate(motion, time, 1e-3, force), forces.error()->message);
+  return force;
+}
+
+template <typename Check>
+void on_all_meshes(const Check& check) {
+  std::uint32_t seed = 0;
+  for (const auto& [name, mesh] : meshes()) {
+    CAPTURE(name);
+    ForceWorld world(mesh, ++seed);
+    world.free_all();
+    check(world, seed);
+  }
+}
+
+/// Forces from the store alone, interaction by interaction and match by match.
+Records forces_one_by_one(ForceWorld& world, const engine::Model& model) {
+  Records force(world.vertices().row_end());
+  for (const auto& active : model.interactions) {
+    const auto& body = world.program().interaction_bodies[active.interaction];
+    compile::Specialiser specialiser(world.world(), body, compile::wanted_forces(body, false),
+                                     world.value_sources());
+    world.each_match(active.interaction, [&](const std::vector<types::DartId>& nodes, auto&) {
+      compile::MatchRoles roles;
+      compile::Shape shape;
+      REQUIRE(specialiser.build(nodes, roles, shape));
+      engine::IrEvaluator<double> evaluator(shape.graph);
+      engine::gather_inputs(shape, roles.roles, world.state(), evaluator);
+      evaluator.run();
+      for (const auto& root : shape.forces) {
+        auto& sum = force[roles.roles[root.role].row];
+        const auto& value = evaluator[root.total];
+        sum = {sum.x + value[0], sum.y + value[1], sum.z + value[2], 0};
+      }
+    });
+  }
+  return force;
+}
+
+}  // namespace
+
+TEST_CASE("the oracle adds up what single matches compute") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t) {
+    const engine::Model model = model_of(world.program(), false, any);
+    const auto forces = tree_forces(world, model);
+    const Records got = evaluate(*forces, world.motion());
+    const Records expected = forces_one_by_one(world, model);
+    for (std::size_t row = 0; row < got.size(); ++row) {
+      // Derived values come as columns here and as expressions there.
+      CHECK(got[row].x == doctest::Approx(expected[row].x).epsilon(1e-13));
+      CHECK(got[row].y == doctest::Approx(expected[row].y).epsilon(1e-13));
+      CHECK(got[row].z == doctest::Approx(expected[row].z).epsilon(1e-13));
+    }
+    CHECK(largest(got) > 0.1);
+  });
+}
+
+TEST_CASE("internal forces of a free body sum to no force and no torque") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t) {
+    const auto forces = tree_forces(world, model_of(world.program(), false, is_internal));
+    const engine::Motion motion = world.motion();
+    const Records force = evaluate(*forces, motion);
+    std::array<double, 3> sum{}, torque{};
+    for (std::size_t row = 0; row < force.size(); ++row) {
+      const VertexRecord& x = motion.position[row];
+      const VertexRecord& f = force[row];
+      sum = {sum[0] + f.x, sum[1] + f.y, sum[2] + f.z};
+      torque = {torque[0] + x.y * f.z - x.z * f.y, torque[1] + x.z * f.x - x.x * f.z,
+                torque[2] + x.x * f.y - x.y * f.x};
+    }
+    for (int k = 0; k < 3; ++k) {
+      CHECK(std::abs(sum[k]) <= 1e-13 * largest(force) * 3);
+      CHECK(std::abs(torque[k]) <= 1e-13 * largest(force) * 10);
+    }
+  });
+}
+
+TEST_CASE("the product is the derivative of the forces") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t seed) {
+    const auto forces = tree_forces(world, model_of(world.program(), false, is_internal));
+    const engine::Motion motion = world.motion();
+    const Records dx = random_records(motion.position.size(), seed);
+    const Records dv = random_records(motion.position.size(), seed + 100);
+    Records product(motion.position.size());
+    REQUIRE(forces->product(motion, 0, dx, dv, product));
+    constexpr double h = 1e-5;
+    const auto at = [&](double s) {
+      return evaluate(*forces, {plus(motion.position, scaled(s, dx)),
+                                plus(motion.velocity, scaled(s, dv))});
+    };
+    const Records difference =
+        scaled(1 / (12 * h), plus(scaled(8, plus(at(h), scaled(-1, at(-h)))),
+                                  scaled(-1, plus(at(2 * h), scaled(-1, at(-2 * h))))));
+    CHECK(largest(plus(product, scaled(-1, difference))) <= 1e-7 * largest(product));
+    CHECK(largest(product) > 0.1);
+  });
+}
+
+TEST_CASE("energies are the potential of the forces without velocities") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t seed) {
+    const auto forces = tree_forces(world, model_of(world.program(), false, is_internal));
+    engine::Motion motion = world.motion();
+    motion.velocity.assign(motion.velocity.size(), {});
+    const Records dx = random_records(motion.position.size(), seed);
+    const auto energy = [&](double s) {
+      double value = 0;
+      REQUIRE(forces->potential_energy({plus(motion.position, scaled(s, dx)), motion.velocity}, 0,
+                                       value));
+      return value;
+    };
+    constexpr double h = 1e-4;
+    const double slope = (8 * (energy(h) - energy(-h)) - energy(2 * h) + energy(-2 * h)) / (12 * h);
+    CHECK(dot(evaluate(*forces, motion), dx) == doctest::Approx(-slope).epsilon(1e-7));
+  });
+}
+
+namespace {
+
+/// Largest eigenvalue of M^-1/2 K M^-1/2 by power iteration with a shift that keeps it the largest
+/// in modulus: a lower bound.
+double global_eigenvalue(const std::function<Records(const Records&)>& times_k,
+                         const std::vector<double>& mass, std::uint32_t seed) {
+  Records x = random_records(mass.size(), seed);
+  const auto weighted = [&](Records a) {
+    for (std::size_t row = 0; row < a.size(); ++row) {
+      const double w = mass[row] > 0 ? 1 / std::sqrt(mass[row]) : 0;
+      a[row] = {w * a[row].x, w * a[row].y, w * a[row].z, 0};
+    }
+    return a;
+  };
+  double value = 0, shift = 0;
+  for (int k = 0; k < 300; ++k) {
+    x = scaled(1 / std::sqrt(dot(x, x)), x);
+    const Records y = weighted(times_k(weighted(x)));
+    value = dot(x, y);
+    shift = std::max(shift, std::sqrt(dot(y, y)));
+    x = plus(y, scaled(shift, x));
+  }
+  return value;
+}
+
+}  // namespace
+
+TEST_CASE("the element bound is above the largest global eigenvalue") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t seed) {
+    const auto forces = tree_forces(world, model_of(world.program(), false, is_internal));
+    const engine::Motion motion = world.motion();
+    engine::ForceField::ElementBound bound;
+    REQUIRE(forces->element_bound(motion, 0, bound));
+    const Records none(motion.position.size());
+    Records out(motion.position.size());
+    const auto stiffness = [&](const Records& x) {
+      REQUIRE(forces->product(motion, 0, x, none, out));
+      return scaled(-1, out);
+    };
+    const auto damping = [&](const Records& x) {
+      REQUIRE(forces->product(motion, 0, none, x, out));
+      return scaled(-1, out);
+    };
+    const double omega2 = global_eigenvalue(stiffness, world.masses(), seed);
+    const double rate = global_eigenvalue(damping, world.masses(), seed);
+    CHECK(omega2 > 0);
+    CHECK(bound.stiffness >= omega2);
+    CHECK(bound.damping >= rate);
+    CHECK(bound.where != types::kNoDart);
+  });
+}
+
+namespace {
+
+/// Springs of the paper's cloth (Fig. 14), everywhere at rest on a lattice of spacing 1.
+engine::Model cloth_model(const compile::Program& program) {
+  const auto value = [](const std::string& spring, const std::string& parameter) {
+    if (parameter == "stiffness")
+      return spring == "stretch_spring" ? 60.0 : spring == "linear_shear_spring" ? 43.0 : 10.0;
+    if (parameter.substr(0, 4) == "rest")
+      return spring == "stretch_spring" ? 1.0 : spring == "linear_shear_spring" ? std::sqrt(2) : 2.0;
+    return parameter == "damping" ? 0.1 : 1.0;
+  };
+  engine::Model model = model_of(program, true, [](const auto& body) {
+    return body.name == "stretch_spring" || body.name == "linear_shear_spring" ||
+           body.name == "linear_bending_spring";
+  });
+  for (auto& active : model.interactions) {
+    const auto& body = program.interaction_bodies[active.interaction];
+    for (std::size_t i = 0; i < active.parameters.size(); ++i)
+      active.parameters[i].uniform.data = {value(body.name, body.parameters[i].name)};
+  }
+  return model;
+}
+
+void lay_flat(ForceWorld& world) {
+  auto& column = world.state().store.column(world.embedding("position"));
+  for (gmap::Row row = 0; row < column.row_end(); ++row) {
+    const auto at = column.get(row);
+    column.set(row, std::array{std::round(at[0]), std::round(at[1]), std::round(at[2])});
+  }
+  auto& mass = world.state().store.column(world.embedding("corner_mass"));
+  for (gmap::Row row = 0; row < mass.row_end(); ++row) mass.set(row, std::array{0.1 / 400});
+}
+
+}  // namespace
+
+TEST_CASE("the bound of the paper's cloth is close to its largest eigenvalue") {
+  ForceWorld world(gmap::grid(10, 10, 10, 10, gmap::GridCells::Quads), 1);
+  world.free_all();
+  lay_flat(world);
+  const auto forces = tree_forces(world, cloth_model(world.program()));
+  const engine::Motion motion = world.motion();
+  engine::ForceField::ElementBound bound;
+  REQUIRE(forces->element_bound(motion, 0, bound));
+  const Records none(motion.position.size());
+  Records out(motion.position.size());
+  const double omega2 = global_eigenvalue(
+      [&](const Records& x) {
+        REQUIRE(forces->product(motion, 0, x, none, out));
+        return scaled(-1, out);
+      },
+      world.masses(), 1);
+  CHECK(omega2 == doctest::Approx(663436.8461963221).epsilon(1e-3));
+  CHECK(bound.stiffness >= 663436.8461963221);
+  CHECK(bound.stiffness <= 1.6 * omega2);
+}
+
+TEST_CASE("a spring without length pulls nowhere and is named once") {
+  ForceWorld world(gmap::chain(3, 3), 5);
+  world.free_all();
+  const auto forces = tree_forces(world, model_of(world.program(), false, [](const auto& body) {
+                                    return body.name == "stretch_spring";
+                                  }));
+  engine::Motion motion = world.motion();
+  CHECK(forces->notices(motion, 0).empty());
+  motion.position[1] = motion.position[0];
+  const auto notices = forces->notices(motion, 0);
+  REQUIRE(notices.size() == 1);
+  CHECK(notices[0].severity == support::Severity::Warning);
+  CHECK(notices[0].message.find("stretch_spring") != std::string::npos);
+  CHECK(forces->notices(motion, 0).empty());
+  motion.velocity.assign(motion.velocity.size(), {});
+  const Records force = evaluate(*forces, motion);
+  CHECK(force[0].x == 0);
+}
+
+TEST_CASE("a force that is not finite names its rule, match and place") {
+  ForceWorld world(gmap::chain(3, 3), 6);
+  const auto forces = tree_forces(world, model_of(world.program(), false, [](const auto& body) {
+                                    return body.name == "stretch_spring";
+                                  }));
+  engine::Motion motion = world.motion();
+  motion.position[2].y = std::nan("");
+  Records force(motion.position.size());
+  CHECK_FALSE(forces->evaluate(motion, 0, 1e-3, force));
+  REQUIRE(forces->error());
+  CHECK(forces->error()->kind == support::DiagnosticKind::NonFinite);
+  CHECK(forces->error()->message.find("`stretch_spring`") != std::string::npos);
+  CHECK(forces->error()->message.find("a = ") != std::string::npos);
+  CHECK(forces->error()->place.has_value());
+}
