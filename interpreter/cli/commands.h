@@ -11,5 +11,9 @@ int run_list(Session& session);
 int run_dump(Session& session);
 int run_apply(Session& session);
 int run_fuzz(Session& session);
+int run_info(Session& session);
+int run_export(Session& session);
+int run_recover(Session& session);
+int run_snapshot(Session& session);
 
 }  // namespace gmsim::cli

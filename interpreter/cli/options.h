@@ -11,9 +11,60 @@
 
 namespace gmsim::cli {
 
+/// Of the commands that load a scene: run, verify, explain, study.
+struct RunOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;  ///< PATH=VALUE
+  std::filesystem::path output;        ///< empty: what the scene says, else its name
+  bool no_output = false;
+  bool force = false;
+  bool json = false;
+  bool tree_kernel = false;
+  unsigned threads = 1;
+  std::optional<double> max_wall;      ///< s
+  std::vector<std::string> traces;     ///< PHASE or PHASE:RULE
+};
+
+/// Of `study`, beside the scene.
+struct StudyOptions {
+  std::vector<std::string> methods;
+  std::vector<double> steps;                ///< s
+  std::optional<double> reference_step;     ///< s
+  std::string reference_method = "rk4";
+  std::uint32_t repetitions = 5;
+  std::filesystem::path folder;
+};
+
+/// Of the commands that read a file which a run left: info, export, recover, snapshot.
+struct FileOptions {
+  std::filesystem::path file;
+  std::filesystem::path output;  ///< a file, or the folder of `export`
+  std::string format = "pvd";
+  std::int64_t first = 0, last = -1, every = 1;
+  bool json = false;
+  bool show_scene = false;
+  bool show_rules = false;
+  bool force = false;
+};
+
 /// One parsed command line. Fields beyond `command` are those of the command named.
 struct Options {
-  enum class Command { None, Check, List, Apply, Dump, Fuzz } command = Command::None;
+  enum class Command {
+    None,
+    Check,
+    List,
+    Apply,
+    Dump,
+    Fuzz,
+    Run,
+    Verify,
+    Explain,
+    Study,
+    Info,
+    Export,
+    Recover,
+    Snapshot
+  } command = Command::None;
 
   // every command
   std::filesystem::path stdlib_folder;
@@ -43,6 +94,11 @@ struct Options {
   std::uint64_t seed = 0;
   bool has_seed = false;
   std::uint32_t trials = 1000;
+
+  RunOptions run;
+  StudyOptions study;
+  FileOptions file;
+  std::string command_line;  ///< as it was typed, for the record in the output
 };
 
 /// The result of reading a command line: options, or the exit code of a request that is answered

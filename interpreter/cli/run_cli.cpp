@@ -10,6 +10,14 @@
 namespace gmsim::cli {
 namespace {
 
+int refuse_scene(Session& session) {
+  session.diagnostics.report(
+      {.kind = support::DiagnosticKind::Usage,
+       .message = "this version does not run scenes yet",
+       .help = "it checks rule files and applies rules to meshes: `gmsim -h` shows how"});
+  return session.finish();
+}
+
 int run_command(Session& session) {
   using Command = Options::Command;
   switch (session.options.command) {
@@ -18,6 +26,14 @@ int run_command(Session& session) {
     case Command::Dump: return run_dump(session);
     case Command::Apply: return run_apply(session);
     case Command::Fuzz: return run_fuzz(session);
+    case Command::Info: return run_info(session);
+    case Command::Export: return run_export(session);
+    case Command::Recover: return run_recover(session);
+    case Command::Snapshot: return run_snapshot(session);
+    case Command::Run:
+    case Command::Verify:
+    case Command::Explain:
+    case Command::Study: return refuse_scene(session);
     case Command::None: break;
   }
   return kRejected;

@@ -3,6 +3,8 @@
 
 namespace gmsim::cli {
 
-inline constexpr const char* kVersionText = "gmsim " GMSIM_VERSION;
+[[nodiscard]] const char* version();       ///< "0.1.0"
+[[nodiscard]] const char* commit();        ///< of the source this was built from; "unknown"
+[[nodiscard]] const char* version_text();  ///< "gmsim 0.1.0"
 
 }  // namespace gmsim::cli

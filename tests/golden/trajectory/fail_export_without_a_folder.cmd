@@ -1,0 +1,1 @@
+export %d/files/text.vtkhdf --format obj

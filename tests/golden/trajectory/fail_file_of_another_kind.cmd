@@ -1,0 +1,1 @@
+info %d/files/text.vtkhdf

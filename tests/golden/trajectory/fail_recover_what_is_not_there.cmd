@@ -1,0 +1,1 @@
+recover %d/files/nowhere.vtkhdf.part

@@ -1,0 +1,1 @@
+snapshot %d/files/text.vtkhdf -o %d/files/text.vtkhdf
