@@ -6,10 +6,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "engine/force_field.h"
 #include "engine/model.h"
+#include "engine/stability_limit.h"
 #include "engine/state.h"
 #include "support/diagnostic.h"
 #include "support/trace.h"
@@ -25,23 +28,13 @@ struct Totals {
   std::array<double, 3> angular_momentum{};  ///< kg m^2/s, about the origin
 };
 
-/// The largest step that is stable here and now, and where it comes from (numerics, 4).
-struct StabilityLimit {
-  double dt = 0;              ///< s, of the integrator in use, from the element-wise bound
-  double dt_global = 0;       ///< s, from the global estimate (power iteration), >= dt
-  double omega_bound = 0;     ///< rad/s
-  double omega_global = 0;    ///< rad/s
-  double damping_ratio = 0;   ///< of the top mode
-  DartId where = gmap::kNoDart;   ///< a dart of the match that rules the bound
-  std::string interaction;        ///< and its interaction
-};
-
 /// What one step did.
 struct StepReport {
   double time = 0;                 ///< s, at the end of the step
   double dt = 0;                   ///< s, of this step
   std::uint32_t evaluations = 0;   ///< of all forces
   std::uint32_t rejected = 0;      ///< adaptive: steps tried and thrown away
+  bool at_stability_limit = false; ///< adaptive: the limit, not the error, set the length
 };
 
 struct SimulationOptions {
@@ -59,25 +52,38 @@ class Simulation {
   static std::unique_ptr<Simulation> create(State& state, Model model, IntegratorSettings settings,
                                             SimulationOptions options,
                                             support::Diagnostics& diagnostics);
+  /// The same with forces of the caller's.
+  static std::unique_ptr<Simulation> create(State& state, Model model, IntegratorSettings settings,
+                                            std::unique_ptr<ForceField> forces,
+                                            SimulationOptions options,
+                                            support::Diagnostics& diagnostics);
   ~Simulation();
 
-  /// One step, not beyond `until` (s): the last step before it is shortened only for adaptive
-  /// methods and for stop times. Empty after an error, which is then in `diagnostics`; the state is
-  /// the last good one.
+  /// One step, which ends at `until` (s, after time()) at the latest: methods with a fixed step
+  /// shorten the one that would pass it and go on in full steps from there; adaptive methods fit
+  /// their steps. Who wants unshortened fixed steps gives a later `until`. Empty after an error,
+  /// which is then in `diagnostics`; the state is the last good one.
   std::optional<StepReport> step(double until, support::Diagnostics& diagnostics);
 
   [[nodiscard]] double time() const;
   [[nodiscard]] std::uint64_t steps() const;
   [[nodiscard]] std::uint64_t evaluations() const;
-  /// Positions of all vertices at `time` within the last step, by the method's dense output (vertex
-  /// rows, 3 numbers each); adaptive methods only, others answer at the end of the step.
+  /// s: the fixed step (chosen from the limit when the settings leave it open), or the step that an
+  /// adaptive method will try next.
+  [[nodiscard]] double dt() const;
+  /// Positions of all vertices at `time` within the last step (vertex rows, 3 numbers each), by
+  /// quintic Hermite interpolation of positions, velocities and accelerations; adaptive methods
+  /// only, others answer at the end of the step.
   void dense_positions(double time, std::vector<double>& out) const;
   [[nodiscard]] Totals totals();
   [[nodiscard]] const StabilityLimit& limit() const;
-  /// Largest length over rest length of any edge, for the progress line.
+  /// Largest length of any edge over its length when the simulation was made, for the progress line.
   [[nodiscard]] double max_elongation() const;
   /// Puts positions, velocities and the clock into the state's store.
   void sync();
+  /// Takes over a state whose map or values were rewritten after sync(); `touched` as in Effects.
+  /// False after an error.
+  bool refresh(std::span<const DartId> touched, support::Diagnostics& diagnostics);
   /// A hash of positions, velocities and the clock, bit by bit.
   [[nodiscard]] std::uint64_t state_hash() const;
   /// The plan as text: `gmsim explain`.

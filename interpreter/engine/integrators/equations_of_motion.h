@@ -29,6 +29,8 @@ class EquationsOfMotion {
   void begin_step(const PhasePoint& now) { prescribed_.begin_step(now); }
   /// Puts prescribed vertices where they are at `time`, then evaluates all forces there.
   bool evaluate(Motion& motion, double time, double dt, std::span<VertexRecord> force);
+  /// Puts prescribed vertices where they are at `time`, with their velocities.
+  bool prescribe(double time, Motion& motion) { return prescribed_.apply(time, motion); }
   /// The forces only.
   bool evaluate_forces(const Motion& motion, double time, double dt, std::span<VertexRecord> force);
 

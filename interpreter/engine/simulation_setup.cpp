@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include <utility>
+
+#include "engine/integrators/vertex_masses.h"
+#include "engine/simulation_implementation.h"
+#include "support/check.h"
+
+namespace gmsim::engine {
+namespace {
+
+EmbeddingId required(State& state, const char* name) {
+  const std::optional<EmbeddingId> id = state.program.schema.find(name);
+  GMSIM_CHECK(id.has_value(), std::string("no embedding `") + name + "` in the schema");
+  state.store.use(*id);
+  return *id;
+}
+
+VertexRecord record_of(std::span<const double> value) { return {value[0], value[1], value[2]}; }
+
+}  // namespace
+
+Simulation::Implementation::Implementation(State& state, Model model, IntegratorSettings settings,
+                                           std::unique_ptr<ForceField> forces,
+                                           SimulationOptions options)
+    : state_(state),
+      model_(std::move(model)),
+      settings_(std::move(settings)),
+      options_(options),
+      info_(find_integrator(settings_.method)),
+      position_(required(state, "position")),
+      velocity_(required(state, "velocity")),
+      forces_(std::move(forces)),
+      equations_(*forces_, prescribed_),
+      method_(make_integrator(*info_)),
+      estimator_(*forces_, *method_),
+      control_(method_->embedded_order()),
+      steps_(state.step) {}
+
+bool Simulation::Implementation::prepare(support::Diagnostics& diagnostics) {
+  prescribed_ = PrescribedMotions(state_, model_.motions);
+  if (settings_.dt > 0) prescribed_.set_step(settings_.dt);
+  if (prescribed_.error()) {
+    diagnostics.report(*prescribed_.error());
+    return false;
+  }
+  if (!hold_vertices(diagnostics) || !weigh_vertices(diagnostics)) return false;
+  load_motion();
+  edges_ = EdgeLengths(state_, now_.motion);
+  guard_ = Guard(edges_.shortest());
+  prescribed_.begin_step(now_);
+  if (!equations_.prescribe(now_.time, now_.motion)) {
+    diagnostics.report(*equations_.error());
+    return false;
+  }
+  if (!find_limit(diagnostics) || !choose_step(diagnostics) || !first_forces(diagnostics))
+    return false;
+  for (support::Diagnostic& notice : forces_->notices(now_.motion, now_.time))
+    diagnostics.report(std::move(notice));
+  return !info_->adaptive || choose_first_step(diagnostics);
+}
+
+bool Simulation::Implementation::refresh(std::span<const DartId> touched,
+                                         support::Diagnostics& diagnostics) {
+  forces_->refresh(touched);
+  if (!hold_vertices(diagnostics) || !weigh_vertices(diagnostics)) return false;
+  load_motion();
+  prescribed_.begin_step(now_);
+  if (!equations_.prescribe(now_.time, now_.motion)) {
+    diagnostics.report(*equations_.error());
+    return false;
+  }
+  return find_limit(diagnostics) && first_forces(diagnostics);
+}
+
+bool Simulation::Implementation::hold_vertices(support::Diagnostics& diagnostics) {
+  const gmap::OrbitIndex& index = vertices();
+  fixed_.assign(index.row_end(), false);
+  const std::optional<EmbeddingId> fixed = state_.program.schema.find("fixed");
+  if (fixed && state_.store.in_use(*fixed))
+    for (Row row = 0; row < index.row_end(); ++row)
+      fixed_[row] = index.alive(row) && state_.store.get(*fixed, index.smallest(row))[0] != 0;
+  held_ = fixed_;
+  for (const Row row : prescribed_.rows()) {
+    held_[row] = true;
+    if (!fixed_[row]) continue;
+    support::Diagnostic problem{support::DiagnosticKind::Conflict,
+                                "a vertex is both fixed and moved"};
+    if (!model_.motions.empty()) problem.place = model_.motions.front().span;
+    problem.notes.push_back(row_text(row));
+    diagnostics.report(std::move(problem));
+    return false;
+  }
+  return true;
+}
+
+bool Simulation::Implementation::weigh_vertices(support::Diagnostics& diagnostics) {
+  std::optional<support::Diagnostic> problem;
+  masses_ = vertex_masses(state_, problem);
+  std::vector<double> inverse;
+  if (!problem) inverse = inverse_masses(state_, masses_, held_, problem);
+  if (problem) {
+    diagnostics.report(std::move(*problem));
+    return false;
+  }
+  equations_.set_inverse_mass(std::move(inverse));
+  return true;
+}
+
+void Simulation::Implementation::load_motion() {
+  const gmap::OrbitIndex& index = vertices();
+  now_.resize(index.row_end());
+  next_.resize(index.row_end());
+  method_->resize(index.row_end());
+  now_.time = state_.time;
+  for (Row row = 0; row < index.row_end(); ++row) {
+    now_.motion.position[row] = now_.motion.velocity[row] = {};
+    if (!index.alive(row)) continue;
+    now_.motion.position[row] = record_of(state_.store.column(position_).get(row));
+    if (!fixed_[row])
+      now_.motion.velocity[row] = record_of(state_.store.column(velocity_).get(row));
+  }
+  next_ = now_;
+}
+
+bool Simulation::Implementation::first_forces(support::Diagnostics& diagnostics) {
+  if (!equations_.evaluate_forces(now_.motion, now_.time, dt_ / substeps_, now_.force)) {
+    diagnostics.report(failed_forces(dt_));
+    return false;
+  }
+  const Guard::Finding finding = Guard::look(now_);
+  if (finding.finite) return true;
+  diagnostics.report(diverged(dt_, "the state to start from is not finite", finding.row));
+  return false;
+}
+
+}  // namespace gmsim::engine
