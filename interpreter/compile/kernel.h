@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -25,27 +24,29 @@ enum class KernelOp : std::uint8_t {
 /// Doubles that every lane group of a uniform register holds: the widest vector there is.
 inline constexpr std::uint32_t kUniformLanes = 8;
 
-/// A register: one row of `Kernel::lanes` doubles for each entry of its value (1 of a number or mask,
-/// which is 0 or 1; 3, 6 or 9), or of kUniformLanes when it is the same for all matches.
+/// A register, or some rows of one: a row has `Kernel::lanes` doubles, or kUniformLanes when it is
+/// the same for all matches. A number or mask (0 or 1) has one row, a vec3 3, a sym3 6, a mat3 9.
 struct Register {
   std::uint32_t offset = 0;  ///< of its first row in the register file, in doubles
+  std::uint8_t rows = 0;
   bool uniform = false;
   bool operator==(const Register&) const = default;
 };
 
 struct KernelInstruction {
   KernelOp op{};
-  ir::ValueKind type = ir::ValueKind::Real;  ///< of what is moved, or of the operand whose type varies
+  ir::ValueKind type =
+      ir::ValueKind::Real;  ///< of what is moved, or of the operand whose type varies
   Register d;
-  std::array<Register, 3> operands = {};
-  std::array<std::uint32_t, 2> numbers = {};  ///< inputs, output, exponent (as a signed number)
+  Register operands[3] = {};
+  std::uint32_t numbers[2] = {};  ///< inputs, output, exponent (as a signed number)
   ir::Span span = {};
 };
 
 struct KernelInput {
   std::uint32_t input = 0;  ///< number in graph.inputs()
   ir::ValueKind type = ir::ValueKind::Real;
-  bool uniform = false;     ///< time, dt, step: the same for all matches
+  bool uniform = false;  ///< time, dt, step: the same for all matches
 };
 
 struct KernelOutput {
@@ -56,7 +57,6 @@ struct KernelOutput {
 /// A uniform register that holds a number all the time.
 struct KernelConstant {
   Register place;
-  std::uint32_t rows = 1;  ///< a zero matrix has 9
   double value = 0;
 };
 
@@ -66,9 +66,9 @@ struct Kernel {
   std::vector<KernelConstant> constants;
   std::vector<KernelInstruction> once;  ///< once a run: reads and writes uniform registers only
   std::vector<KernelInstruction> code;  ///< once a block
-  std::uint32_t block = 64;   ///< matches worked on at a time
-  std::uint32_t lanes = 64;   ///< block, rounded up to kUniformLanes
-  std::uint32_t doubles = 0;  ///< size of the register file
+  std::uint32_t block = 64;             ///< matches worked on at a time
+  std::uint32_t lanes = 64;             ///< block, rounded up to kUniformLanes
+  std::uint32_t doubles = 0;            ///< size of the register file
 
   /// Arithmetic operations a match: one per entry of each result, square roots and divisions
   /// included; coarse operations by their usual count.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/builtins.h"
+#include "engine/kernel/lane_functions.h"
 
 namespace gmsim::engine {
 
@@ -26,7 +27,7 @@ double power(double x, double y) {
     return y < 0.0 ? 1.0 / result : result;
   }
   if (y == 0.5) return std::sqrt(x);
-  return std::pow(x, y);
+  return general_power(x, y);
 }
 
 template <>
@@ -61,9 +62,7 @@ void run_builtin<Builtin::Ceil>(const BuiltinCall& call, double* out) {
 }
 template <>
 void run_builtin<Builtin::Mod>(const BuiltinCall& call, double* out) {
-  const double divisor = *call[1];
-  const double rest = std::fmod(*call[0], divisor);
-  *out = rest != 0.0 && (rest < 0.0) != (divisor < 0.0) ? rest + divisor : rest;
+  *out = modulo(*call[0], *call[1]);
 }
 template <>
 void run_builtin<Builtin::Sqrt>(const BuiltinCall& call, double* out) {
@@ -71,43 +70,43 @@ void run_builtin<Builtin::Sqrt>(const BuiltinCall& call, double* out) {
 }
 template <>
 void run_builtin<Builtin::Exp>(const BuiltinCall& call, double* out) {
-  *out = std::exp(*call[0]);
+  *out = fixed_order::exp(*call[0]);
 }
 template <>
 void run_builtin<Builtin::Log>(const BuiltinCall& call, double* out) {
-  *out = std::log(*call[0]);
+  *out = fixed_order::log(*call[0]);
 }
 template <>
 void run_builtin<Builtin::Sin>(const BuiltinCall& call, double* out) {
-  *out = std::sin(*call[0]);
+  *out = fixed_order::sin(*call[0]);
 }
 template <>
 void run_builtin<Builtin::Cos>(const BuiltinCall& call, double* out) {
-  *out = std::cos(*call[0]);
+  *out = fixed_order::cos(*call[0]);
 }
 template <>
 void run_builtin<Builtin::Tan>(const BuiltinCall& call, double* out) {
-  *out = std::tan(*call[0]);
+  *out = fixed_order::tan(*call[0]);
 }
 template <>
 void run_builtin<Builtin::Asin>(const BuiltinCall& call, double* out) {
-  *out = std::asin(*call[0]);
+  *out = fixed_order::asin(*call[0]);
 }
 template <>
 void run_builtin<Builtin::Acos>(const BuiltinCall& call, double* out) {
-  *out = std::acos(*call[0]);
+  *out = fixed_order::acos(*call[0]);
 }
 template <>
 void run_builtin<Builtin::Atan>(const BuiltinCall& call, double* out) {
-  *out = std::atan(*call[0]);
+  *out = fixed_order::atan(*call[0]);
 }
 template <>
 void run_builtin<Builtin::Atan2>(const BuiltinCall& call, double* out) {
-  *out = std::atan2(*call[0], *call[1]);
+  *out = fixed_order::atan2(*call[0], *call[1]);
 }
 template <>
 void run_builtin<Builtin::Tanh>(const BuiltinCall& call, double* out) {
-  *out = std::tanh(*call[0]);
+  *out = fixed_order::tanh(*call[0]);
 }
 template <>
 void run_builtin<Builtin::Real>(const BuiltinCall& call, double* out) {

@@ -6,6 +6,7 @@
 
 #include "engine/builtins.h"
 #include "engine/ir_tensors.h"
+#include "engine/kernel/lane_functions.h"
 #include "engine/tree_eval.h"
 #include "support/check.h"
 
@@ -21,11 +22,27 @@ std::uint32_t entry_count(ValueKind kind) {
   return kind == ValueKind::Bool ? 1 : types::component_count({kind});
 }
 
-template <typename Number>
-Number modulo(Number x, Number divisor) {
-  const Number rest = std::fmod(x, divisor);
+long double modulo(long double x, long double divisor) {
+  const long double rest = std::fmod(x, divisor);
   return rest != 0 && (rest < 0) != (divisor < 0) ? rest + divisor : rest;
 }
+
+/// In double the functions of the kernels.
+#define GMSIM_FUNCTION(name)                                  \
+  double name##_of(double x) { return fixed_order::name(x); } \
+  long double name##_of(long double x) { return std::name(x); }
+GMSIM_FUNCTION(exp)
+GMSIM_FUNCTION(log)
+GMSIM_FUNCTION(sin)
+GMSIM_FUNCTION(cos)
+GMSIM_FUNCTION(tan)
+GMSIM_FUNCTION(asin)
+GMSIM_FUNCTION(acos)
+GMSIM_FUNCTION(atan)
+GMSIM_FUNCTION(tanh)
+#undef GMSIM_FUNCTION
+double atan2_of(double y, double x) { return fixed_order::atan2(y, x); }
+long double atan2_of(long double y, long double x) { return std::atan2(y, x); }
 
 double power_of(double x, double y) { return power(x, y); }
 long double power_of(long double x, long double y) { return std::pow(x, y); }
@@ -92,16 +109,16 @@ void IrEvaluator<Number>::scalar(const ir::Node& node, Number& out) const {
     case Op::Floor: out = std::floor(x); return;
     case Op::Ceil: out = std::ceil(x); return;
     case Op::Mod: out = modulo(x, y); return;
-    case Op::Exp: out = std::exp(x); return;
-    case Op::Log: out = std::log(x); return;
-    case Op::Sin: out = std::sin(x); return;
-    case Op::Cos: out = std::cos(x); return;
-    case Op::Tan: out = std::tan(x); return;
-    case Op::Asin: out = std::asin(x); return;
-    case Op::Acos: out = std::acos(x); return;
-    case Op::Atan: out = std::atan(x); return;
-    case Op::Atan2: out = std::atan2(x, y); return;
-    case Op::Tanh: out = std::tanh(x); return;
+    case Op::Exp: out = exp_of(x); return;
+    case Op::Log: out = log_of(x); return;
+    case Op::Sin: out = sin_of(x); return;
+    case Op::Cos: out = cos_of(x); return;
+    case Op::Tan: out = tan_of(x); return;
+    case Op::Asin: out = asin_of(x); return;
+    case Op::Acos: out = acos_of(x); return;
+    case Op::Atan: out = atan_of(x); return;
+    case Op::Atan2: out = atan2_of(x, y); return;
+    case Op::Tanh: out = tanh_of(x); return;
     case Op::Less: out = x < y; return;
     case Op::LessEqual: out = x <= y; return;
     case Op::Equal: out = x == y; return;

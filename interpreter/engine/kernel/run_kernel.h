@@ -15,7 +15,8 @@ namespace gmsim::engine {
 /// Where the values of one input are. That of match m starts
 ///   at base[stride * rows[m]]  when `rows` is given,
 ///   at base[stride * m]        when `per_match`,
-///   at base[0]                 else: the same for all matches (uniform parameters, time, dt, step).
+///   at base[0]                 else: the same for all matches (uniform parameters, time, dt,
+///   step).
 /// A vec3 in records of 4 doubles (stride 4, base at a multiple of 32 bytes, VertexRecord) is read
 /// fastest; the fourth number is read and ignored.
 struct InputBinding {
@@ -58,22 +59,23 @@ class KernelScratch {
 /// `outputs` one per kernel.outputs. Gives the first match with an output that is not finite.
 std::optional<std::uint32_t> run_kernel(const compile::Kernel& kernel,
                                         std::span<const InputBinding> inputs,
-                                        std::span<const OutputBinding> outputs,
-                                        std::uint32_t begin, std::uint32_t end,
-                                        KernelScratch& scratch, Isa isa = preferred_isa());
+                                        std::span<const OutputBinding> outputs, std::uint32_t begin,
+                                        std::uint32_t end, KernelScratch& scratch,
+                                        Isa isa = preferred_isa());
 
 /// Where a number that is not finite came from: the operation whose operands are all finite, or an
 /// input.
 struct NonFiniteOrigin {
-  std::uint32_t output = 0;            ///< which root is not finite
+  std::uint32_t output = 0;  ///< which root is not finite
   compile::KernelOp op{};
   support::Span span;                  ///< of the expression in the rule
   std::optional<std::uint32_t> input;  ///< index into kernel.inputs when it was read as such
 };
 
 /// Runs one match again and finds the origin; empty when all its outputs are finite.
-[[nodiscard]] std::optional<NonFiniteOrigin> locate_non_finite(
-    const compile::Kernel& kernel, std::span<const InputBinding> inputs, std::uint32_t match,
-    KernelScratch& scratch);
+[[nodiscard]] std::optional<NonFiniteOrigin> locate_non_finite(const compile::Kernel& kernel,
+                                                               std::span<const InputBinding> inputs,
+                                                               std::uint32_t match,
+                                                               KernelScratch& scratch);
 
 }  // namespace gmsim::engine
