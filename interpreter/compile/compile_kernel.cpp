@@ -159,9 +159,10 @@ class Selection {
     for (std::uint32_t k = 0; k < used.size(); ++k) {
       if (!used[k]) continue;
       positions_[k] = static_cast<std::uint32_t>(inputs_.size());
-      const auto source = graph_.inputs()[k].source;
+      using Source = ir::Input::Source;
+      const Source source = graph_.inputs()[k].source;
       const bool uniform =
-          source != ir::Input::Source::Embedding && source != ir::Input::Source::MatchValue;
+          source == Source::Time || source == Source::Dt || source == Source::Step;
       inputs_.push_back({k, types[k], uniform});
     }
   }

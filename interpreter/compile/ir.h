@@ -41,6 +41,9 @@ struct Input {
   enum class Source : std::uint8_t {
     Embedding,  ///< value of `embedding` at the orbit of role `role`
     MatchValue, ///< number `role` of the match's own list: what a match knows when it is made
+    ForceOn,    ///< N: internal atomic forces on the orbit of role `role`, summed; of all
+                ///< interactions (`offset` 0), or of interaction `offset` - 1
+    AtomicForce,///< N: number `role` of the match's list of atomic forces (MatchRoles::atomic)
     Time,       ///< s
     Dt,
     Step

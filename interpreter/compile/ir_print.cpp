@@ -16,6 +16,11 @@ std::string input_text(const Input& input) {
                          input.role);
     }
     case Input::Source::MatchValue: return fmt::format("match value {}", input.role);
+    case Input::Source::ForceOn:
+      return input.offset == 0 ? fmt::format("force on role {}", input.role)
+                               : fmt::format("force of interaction {} on role {}", input.offset - 1,
+                                             input.role);
+    case Input::Source::AtomicForce: return fmt::format("atomic force {}", input.role);
     case Input::Source::Time: return "time";
     case Input::Source::Dt: return "dt";
     case Input::Source::Step: return "step";

@@ -113,6 +113,7 @@ bool Specialiser::run(std::span<const DartId> nodes, MatchRoles& out, Shape* sha
   }
   out.roles = walker.roles().take();
   out.targets = forces.take_darts();
+  out.atomic = walker.take_atomic();
   out.key = walker.take_key();
   if (shape == nullptr) return true;
   shape->key = out.key;

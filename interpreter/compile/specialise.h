@@ -85,6 +85,7 @@ struct Shape {
 struct MatchRoles {
   std::vector<Role> roles;
   std::vector<DartId> targets;  ///< the dart of each force target
+  std::vector<std::uint32_t> atomic = {};  ///< atomic forces that the match goes through one by one
   std::vector<std::uint32_t> key;
 };
 
@@ -96,6 +97,14 @@ struct SpecialiseFailure {
   support::Diagnostic diagnostic;
 };
 
+/// Who can list the atomic forces on an orbit, by numbers of its own.
+class AtomicForceList {
+ public:
+  virtual ~AtomicForceList() = default;
+  /// Appends those that live on sub-orbits of the orbit of `dart`, in canonical order.
+  virtual void list(OrbitType orbit, DartId dart, std::vector<std::uint32_t>& out) const = 0;
+};
+
 /// The object that expressions speak about. The store must have an index for each orbit type whose
 /// columns are gathered, `position`'s included.
 struct World {
@@ -103,6 +112,8 @@ struct World {
   const gmap::GMap& map;
   const gmap::EmbeddingStore& store;
   EmbeddingId position{};  ///< what energies are differentiated with respect to
+  /// For criteria and fields; null where forces cannot be read.
+  const AtomicForceList* atomic_forces = nullptr;
 };
 
 class SymbolicWalker;

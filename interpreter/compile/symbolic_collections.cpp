@@ -19,11 +19,6 @@ using types::ValueKind;
 
 // ---- collections --------------------------------------------------------------------------------
 
-void SymbolicWalker::unavailable(const Expr& expr) {
-  fail(DiagnosticKind::NotAvailable, expr.span, "forces cannot be read here",
-       "criteria, output fields and operations read them while a scene runs");
-}
-
 std::shared_ptr<const std::vector<DartRef>> SymbolicWalker::members(const Expr& collection) {
   if (collection.kind == ExprKind::Local || collection.kind == ExprKind::Let ||
       collection.kind == ExprKind::If) {
@@ -60,8 +55,6 @@ void SymbolicWalker::darts(const Expr& expr, std::vector<DartRef>& out) {
     case ExprKind::AllOrbits:
       for (const DartId d : gmap::all_orbits(world_.map, expr.orbit)) append(d);
       break;
-    case ExprKind::Forces:
-      return unavailable(expr);
     default:
       out = *members(expr);
       return;
@@ -113,7 +106,14 @@ void SymbolicWalker::each(const Expr& fold, const Body& body) {
       if (!body()) break;
     }
   } else if (collection.type.kind == ValueKind::Forces) {
-    return unavailable(collection);
+    const SymbolicValue all = evaluate(collection);
+    if (failed()) return;
+    std::swap(outer, cell(fold.slot));
+    for (const std::uint32_t number : *all.forces) {
+      if (failed()) break;
+      bind(fold.slot, atomic_force(collection, number));
+      if (!body()) break;
+    }
   } else {
     const auto all = members(collection);
     std::swap(outer, cell(fold.slot));

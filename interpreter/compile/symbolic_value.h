@@ -28,6 +28,7 @@ struct SymbolicValue {
   double upper = 0;  ///< a range is number <= i < upper
   DartRef dart;
   std::shared_ptr<const std::vector<DartRef>> darts;
+  std::shared_ptr<const std::vector<std::uint32_t>> forces;  ///< numbers into MatchRoles::atomic
   /// Numbers, taken apart as value_parts says; a Bool is a mask, an eigenpair value and vector.
   /// Empty for known numbers, and always while no graph is built.
   std::vector<ir::NodeId> parts;

@@ -32,6 +32,7 @@ void SymbolicWalker::start(std::span<const DartId> nodes, ir::Graph* graph) {
   trace_.start(static_cast<std::uint32_t>(nodes.size()));
   key_.clear();
   draws_.clear();
+  atomic_.clear();
   positions_.clear();
   differentiated_.clear();
   failure_.reset();
@@ -261,9 +262,9 @@ SymbolicValue SymbolicWalker::evaluate(const Expr& expr) {
       return range;
     }
     case ExprKind::Forces:
+      return atomic_forces(expr);
     case ExprKind::ForceOn:
-      unavailable(expr);
-      return {};
+      return force_on(expr);
     case ExprKind::Fold:
       return fold(expr);
     case ExprKind::Neg:

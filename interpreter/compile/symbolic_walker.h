@@ -52,6 +52,7 @@ class SymbolicWalker {
   [[nodiscard]] WalkTrace& trace() { return trace_; }
   [[nodiscard]] std::vector<std::uint32_t> take_key() { return std::move(key_); }
   [[nodiscard]] const std::vector<Draw>& draws() const { return draws_; }
+  [[nodiscard]] std::vector<std::uint32_t> take_atomic() { return std::move(atomic_); }
   /// By role: the input node of its position, kNone when it was not read.
   [[nodiscard]] const std::vector<ir::NodeId>& positions() const { return positions_; }
   /// What grad() was asked of: numbers whose derivatives are there already.
@@ -147,7 +148,12 @@ class SymbolicWalker {
   [[nodiscard]] SymbolicValue fold_truth(const Expr& expr);
   [[nodiscard]] SymbolicValue fold_best(const Expr& expr);
   void fail_empty(const Expr& expr);
-  void unavailable(const Expr& expr);
+
+  // symbolic_forces.cpp
+  [[nodiscard]] SymbolicValue force_on(const Expr& expr);
+  [[nodiscard]] SymbolicValue atomic_forces(const Expr& expr);
+  [[nodiscard]] SymbolicValue atomic_force(const Expr& collection, std::uint32_t number);
+  bool forces_can_be_read(const Expr& expr);
 
   const World& world_;
   const ItemBody& body_;
@@ -161,6 +167,7 @@ class SymbolicWalker {
   WalkTrace trace_;
   std::vector<std::uint32_t> key_;
   std::vector<Draw> draws_;
+  std::vector<std::uint32_t> atomic_;
   std::vector<NodeId> positions_;
   std::vector<NodeId> differentiated_;
   std::optional<SpecialiseFailure> failure_;

@@ -37,6 +37,8 @@ InputOrigin ShapeInputs::origin(const ir::Input& input, std::uint32_t width) {
   switch (input.source) {
     case ir::Input::Source::Embedding: return embedding_origin(input, width);
     case ir::Input::Source::MatchValue: return {.kind = Kind::Own, .offset = input.role};
+    case ir::Input::Source::ForceOn:
+    case ir::Input::Source::AtomicForce: break;  // no force depends on forces
     case ir::Input::Source::Time: return {.kind = Kind::Time};
     case ir::Input::Source::Dt: return {.kind = Kind::Dt};
     case ir::Input::Source::Step: return {.kind = Kind::Step};
@@ -70,6 +72,12 @@ std::uint32_t ShapeInputs::derived_at(EmbeddingId embedding, std::uint32_t role)
   derived_.push_back({embedding, role, own_count_, width});
   own_count_ += width;
   return derived_.back().offset;
+}
+
+std::vector<std::uint32_t> ShapeInputs::own_widths() const {
+  std::vector<std::uint32_t> widths(draws_.size(), 1);
+  for (const Derived& derived : derived_) widths.push_back(derived.width);
+  return widths;
 }
 
 std::optional<support::Diagnostic> ShapeInputs::read_own(TreeEvaluator& reader,

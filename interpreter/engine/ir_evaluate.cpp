@@ -201,6 +201,8 @@ void gather_inputs(const compile::Shape& shape, std::span<const compile::Role> r
         value = {random_number(draw.seed, state, role.type, role.dart)};
         break;
       }
+      case ir::Input::Source::ForceOn:
+      case ir::Input::Source::AtomicForce: GMSIM_CHECK(false, "a state has no forces"); break;
       case ir::Input::Source::Time: value = {state.time}; break;
       case ir::Input::Source::Dt: value = {state.dt}; break;
       case ir::Input::Source::Step: value = {static_cast<double>(state.step)}; break;
