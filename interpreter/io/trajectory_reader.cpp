@@ -175,6 +175,8 @@ void TrajectoryReader::Implementation::load() {
   run = read_run_description(file.get());
   summary.complete = read_number_attribute(file.get(), "/gmsim", "complete") != 0;
   summary.state_hash = read_text_attribute(file.get(), "/gmsim", "state_hash");
+  if (attribute_exists(file.get(), "/gmsim", "ending"))
+    summary.ending = read_text_attribute(file.get(), "/gmsim", "ending");
   times = rows<double>("/VTKHDF/Steps/Values", 0, summary.frames);
   steps = rows<std::int64_t>("/gmsim/frame_steps", 0, summary.frames);
   epoch_of = rows<std::int64_t>("/VTKHDF/Steps/PartOffsets", 0, summary.frames);

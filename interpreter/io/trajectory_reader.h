@@ -38,9 +38,10 @@ struct OrbitValues {
 
 /// What a file holds besides the description of its run.
 struct TrajectorySummary {
-  bool complete = false;  ///< the run came to its end
+  bool complete = false;  ///< the run closed its file
   std::int64_t frames = 0, epochs = 0, events = 0, reports = 0;
-  std::string state_hash;
+  std::string state_hash;  ///< of the final state
+  std::string ending;      ///< how the run ended: "finished", "interrupted", "stopped"; or empty
 };
 
 /// Reads a finished file, or the frames that are safe of a `.part`, also while it is written.

@@ -165,7 +165,8 @@ class Creator {
     write_text_attribute(group, "command", run_.command);
     write_text_attribute(group, "started", run_.started);
     write_number_attribute(group, "seed", static_cast<std::int64_t>(run_.seed));
-    write_text_attribute(group, "state_hash", "", kExtentNameSize);
+    write_text_attribute(group, "state_hash", "", kShortText);
+    write_text_attribute(group, "ending", "", kShortText);
   }
 
   void write_rules() {

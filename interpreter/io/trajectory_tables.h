@@ -12,6 +12,9 @@
 
 namespace gmsim::io {
 
+/// Room for the texts that are known only at the end of a run.
+inline constexpr std::size_t kShortText = 64;
+
 /// A row of /gmsim/events, as in the file: packed, little-endian.
 struct EventRecord {
   std::int64_t step, frame;

@@ -54,7 +54,8 @@ struct TrajectoryWriter::Implementation {
   [[nodiscard]] std::vector<std::int64_t> extents(std::int64_t extents_rows);
   void flush();
   void commit();
-  void finish(std::string_view state_hash);
+  void finish(std::string_view state_hash, std::string_view ending);
+  void set_text(const char* attribute, std::string_view text);
   void abandon();
 };
 
@@ -142,11 +143,12 @@ bool TrajectoryWriter::write_frame(const FrameData& frame, Diagnostics& diagnost
   }
 }
 
-bool TrajectoryWriter::close(std::string_view state_hash, Diagnostics& diagnostics) {
+bool TrajectoryWriter::close(std::string_view state_hash, Diagnostics& diagnostics,
+                             std::string_view ending) {
   Implementation& writer = *implementation_;
   GMSIM_CHECK(!writer.failed && !writer.closed, "a trajectory is closed twice");
   try {
-    writer.finish(state_hash);
+    writer.finish(state_hash, ending);
   } catch (const Hdf5Error& error) {
     writer.failed = true;
     return report_failure(writer.path, writer.frames, error.message, diagnostics);
@@ -377,7 +379,16 @@ void TrajectoryWriter::Implementation::commit() {
   ++frames;
 }
 
-void TrajectoryWriter::Implementation::finish(std::string_view state_hash) {
+void TrajectoryWriter::Implementation::set_text(const char* attribute, std::string_view text) {
+  std::string padded(text);
+  GMSIM_CHECK(padded.size() <= kShortText, "a text is too long for its attribute");
+  padded.resize(kShortText, '\0');
+  const Hdf5Handle type = text_type(kShortText);
+  overwrite_attribute(file.get(), "/gmsim", attribute, type.get(), padded.data());
+}
+
+void TrajectoryWriter::Implementation::finish(std::string_view state_hash,
+                                              std::string_view ending) {
   if (frames > 0 && !reports.empty()) {
     // Reports behind the last frame: the last row of extents is to count them too.
     append_reports();
@@ -386,11 +397,8 @@ void TrajectoryWriter::Implementation::finish(std::string_view state_hash) {
     tables.extents.overwrite_last(row.data(), H5T_NATIVE_INT64);
     flush();
   }
-  std::string hash(state_hash);
-  GMSIM_CHECK(hash.size() <= 64, "a state hash of more than 64 characters");
-  hash.resize(64, '\0');
-  const Hdf5Handle type = text_type(64);
-  overwrite_attribute(file.get(), "/gmsim", "state_hash", type.get(), hash.data());
+  set_text("state_hash", state_hash);
+  set_text("ending", ending);
   const std::uint8_t yes = 1;
   overwrite_attribute(file.get(), "/gmsim", "complete", H5T_NATIVE_UINT8, &yes);
   flush();

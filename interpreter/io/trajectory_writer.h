@@ -83,9 +83,11 @@ class TrajectoryWriter {
   bool write_frame(const FrameData& frame, support::Diagnostics& diagnostics);
   /// Frames that are safe.
   [[nodiscard]] std::int64_t frames() const;
-  /// Marks the run as complete and gives the file its name; without a single frame the file is
-  /// removed with a warning. `state_hash`: of the final state, at most 64 characters.
-  bool close(std::string_view state_hash, support::Diagnostics& diagnostics);
+  /// Marks the file as complete and gives it its name; without a single frame the file is removed
+  /// with a warning. `state_hash`: of the final state; `ending`: how the run ended ("finished",
+  /// "interrupted", "stopped"); at most 64 characters each.
+  bool close(std::string_view state_hash, support::Diagnostics& diagnostics,
+             std::string_view ending = "finished");
 
  private:
   struct Implementation;

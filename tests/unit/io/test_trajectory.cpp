@@ -60,6 +60,7 @@ TEST_CASE("every number of a run reads back, in any order of frames") {
     REQUIRE(reader);
     CHECK(reader->summary().complete);
     CHECK(reader->summary().state_hash == "cafe");
+    CHECK(reader->summary().ending == "finished");
     CHECK(run.difference(*reader, 40) == "");
     std::mt19937 random(seed);
     for (int i = 0; i < 60; ++i)
