@@ -13,8 +13,8 @@ namespace gmsim::io {
 
 struct HtmlViewOptions {
   std::int64_t frames = 150;  ///< at most; taken evenly, the first and the last among them
-  std::string field;          ///< colours the mesh when the page opens; empty: none does
-  std::string title;
+  std::string field = {};     ///< colours the mesh when the page opens; empty: none does
+  std::string title = {};
 };
 
 struct HtmlView {

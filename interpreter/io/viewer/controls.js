@@ -18,6 +18,7 @@ export class Controls {
     this.drawing = drawing;
     this.last = run.frames.length - 1;
     this.playing = false;
+    element('title').textContent = run.head.title;
     element('slider').max = this.last;
     element('scale').style.background = cssGradient;
     this.listFields();
@@ -120,8 +121,8 @@ export class Controls {
     element('slider').value = k;
     element('label').textContent =
       `t = ${digits(frame.time, 6)} s, frame ${frame.number} of ${this.run.head.frames_in_file}` +
-      ` (step ${frame.step})\n${counted(mesh.all_points, 'point', 'points')}, ` +
-      `${counted(mesh.all_cells, 'cell', 'cells')}` +
+      ` (step ${frame.step})\n${counted(mesh.allPoints, 'point', 'points')}, ` +
+      `${counted(mesh.allCells, 'cell', 'cells')}` +
       (frame.tears > 0 ? `, ${counted(frame.tears, 'tear', 'tears')}` : '');
     document.body.dataset.frame = frame.number;
     this.describePick();

@@ -19,8 +19,9 @@ function meshTables(block, mesh) {
     at += 4 * length;
     return numbers;
   };
+  const { all_points: allPoints, all_cells: allCells, points, cells, outline } = mesh;
   return {
-    ...mesh,
+    allPoints, allCells, points, cells, outline, // counts; the others are tables
     pointNumbers: table(mesh.points),
     cellNumbers: table(mesh.cells),
     triangles: table(3 * mesh.triangles),

@@ -14,7 +14,7 @@ import { COLOURS, PLAIN } from './colours.js';
 const LINE_WIDTH = 3; // pixels
 const OUTLINE_WIDTH = 2;
 const DOT_SIZE = 6;
-const SCREEN_FILL = 1.08; // 1: the sphere around the run touches the sides of the window
+const MARGIN = 1.2; // 1: the box of the run touches the sides of the window
 
 /** A table of points by number as one of their coordinates, corner after corner. */
 function gather(positions, corners, into) {
@@ -57,9 +57,9 @@ export class Drawing {
   /** Looks at the box of the whole run: flat ones from the front, others from above with z up. */
   placeCamera() {
     const { low, high } = this.run.head;
-    const box = new Box3(new Vector3(...low), new Vector3(...high));
-    this.center = box.getCenter(new Vector3());
-    this.radius = box.getSize(new Vector3()).length() / 2 || 1;
+    this.box = new Box3(new Vector3(...low), new Vector3(...high));
+    this.center = this.box.getCenter(new Vector3());
+    this.radius = this.box.getSize(new Vector3()).length() / 2 || 1;
     const flat = high[2] - low[2] < 1e-6 * this.radius;
     this.direction = flat ? new Vector3(0, 0, 1) : new Vector3(0.5, -1, 0.45).normalize();
     this.camera = new PerspectiveCamera(30, 1, this.radius / 100, this.radius * 100);
@@ -75,9 +75,21 @@ export class Drawing {
 
   /** Back to where the page began. */
   lookHome() {
-    const angle = Math.min(1, this.camera.aspect) * this.camera.fov / 2 * Math.PI / 180;
-    const distance = this.radius * SCREEN_FILL / Math.sin(angle);
-    this.camera.position.copy(this.center).addScaledVector(this.direction, distance);
+    const { camera, box, center } = this;
+    camera.position.copy(center).add(this.direction);
+    camera.lookAt(center);
+    camera.updateMatrixWorld();
+    const rise = Math.tan(camera.fov / 2 * Math.PI / 180) / MARGIN;
+    let distance = this.radius / 100;
+    for (let corner = 0; corner < 8; ++corner) {
+      const [x, y, z] = [1, 2, 4].map((bit, axis) =>
+        (corner & bit ? box.max : box.min).getComponent(axis));
+      const seen = new Vector3(x, y, z).applyMatrix4(camera.matrixWorldInverse);
+      // The camera is one unit from the center along its z axis.
+      distance = Math.max(distance, seen.z + 1 +
+        Math.max(Math.abs(seen.x) / (rise * camera.aspect), Math.abs(seen.y) / rise));
+    }
+    camera.position.copy(center).addScaledVector(this.direction, distance);
     this.controls.target.copy(this.center);
     this.controls.update();
   }
@@ -126,15 +138,15 @@ export class Drawing {
     const coloured = (corners) => new BufferGeometry()
       .setAttribute('position', new BufferAttribute(new Float32Array(3 * corners), 3))
       .setAttribute('color', new BufferAttribute(new Float32Array(3 * corners), 3));
-    this.surface = new Mesh(coloured(3 * mesh.triangles), this.materials.surface);
-    this.dots = new Points(coloured(mesh.dots), this.materials.dots);
+    this.surface = new Mesh(coloured(mesh.triangles.length), this.materials.surface);
+    this.dots = new Points(coloured(mesh.dots.length), this.materials.dots);
     const geometry = new BufferGeometry()
       .setAttribute('position', new BufferAttribute(new Float32Array(3 * mesh.points), 3))
       .setIndex(new BufferAttribute(mesh.edges.slice(2 * mesh.outline), 1));
     this.edgeLines = new LineSegments(geometry, this.materials.edges);
     this.edgeLines.visible = this.edges;
     this.outline = fatLines(mesh.outline, this.materials.outline);
-    this.lines = fatLines(mesh.lines, this.materials.lines);
+    this.lines = fatLines(mesh.lines.length / 2, this.materials.lines);
     this.parts = [this.surface, this.dots, this.edgeLines, this.outline, this.lines];
     for (const part of this.parts) {
       part.frustumCulled = false; // bounds would have to be computed in every frame
