@@ -49,9 +49,10 @@ class Guard {
     return shortest_edge_ > 0 && finding.max_speed * dt > shortest_edge_;
   }
 
-  /// J. Notes the energies of a sound state: kinetic, and potential against the first one seen.
+  /// J. Notes the energies of a sound state: that of moving freely, and the potential one against
+  /// the first seen.
   void note_energy(double kinetic, double potential);
-  /// The kinetic energy is more than a thousand times all energy seen so far.
+  /// This kinetic energy is more than a thousand times all energy seen so far.
   [[nodiscard]] bool outgrown(double kinetic) const {
     return energy_scale_ > 0 && kinetic > 1e3 * energy_scale_;
   }

@@ -79,7 +79,8 @@ class Simulation::Implementation {
   [[nodiscard]] const gmap::OrbitIndex& vertices() const {
     return state_.store.index_of(position_);
   }
-  [[nodiscard]] double kinetic_energy(const PhasePoint& point) const;
+  /// J, of the vertices that forces move.
+  [[nodiscard]] double free_kinetic_energy(const PhasePoint& point) const;
 
   State& state_;
   Model model_;

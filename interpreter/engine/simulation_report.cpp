@@ -40,21 +40,21 @@ void Simulation::Implementation::dense_positions(double time, std::vector<double
   }
 }
 
-double Simulation::Implementation::kinetic_energy(const PhasePoint& point) const {
+double Simulation::Implementation::free_kinetic_energy(const PhasePoint& point) const {
   double twice = 0;
   for (std::size_t r = 0; r < point.rows(); ++r)
-    twice += masses_[r] * dot(point.motion.velocity[r], point.motion.velocity[r]);
+    if (!held_[r]) twice += masses_[r] * dot(point.motion.velocity[r], point.motion.velocity[r]);
   return 0.5 * twice;
 }
 
 Totals Simulation::Implementation::totals() {
   Totals totals;
-  totals.kinetic = kinetic_energy(now_);
   forces_->potential_energy(now_.motion, now_.time, totals.potential);
   VertexRecord momentum, angular;
   for (std::size_t r = 0; r < now_.rows(); ++r) {
     const VertexRecord p = masses_[r] * now_.motion.velocity[r];
     totals.mass += masses_[r];
+    totals.kinetic += 0.5 * dot(now_.motion.velocity[r], p);
     momentum = momentum + p;
     angular = angular + cross(now_.motion.position[r], p);
   }

@@ -96,9 +96,7 @@ bool Simulation::Implementation::advance_adaptive(double until, StepReport& repo
     }
     ++report.rejected;
     control_.reject(dt, error);
-    if (control_.next() >= least || last) {
-      if (control_.next() >= least) continue;
-    }
+    if (control_.next() >= least) continue;
     if (!evaluated) {
       diagnostics.report(failed_forces(dt));
     } else {
@@ -124,7 +122,7 @@ std::optional<support::Diagnostic> Simulation::Implementation::objection(double 
                     finding.row);
   if (!guard_.suspicious(finding, dt) || steps_ < next_look_) return std::nullopt;
   next_look_ = steps_ + kLookEvery;
-  if (guard_.outgrown(kinetic_energy(next_)))
+  if (guard_.outgrown(free_kinetic_energy(next_)))
     return diverged(dt, "the kinetic energy grew a thousandfold", finding.row);
   if (!estimator_.estimate(now_, equations_.inverse_mass(), limit_) || dt > limit_.dt_global)
     return diverged(dt,
@@ -139,7 +137,7 @@ bool Simulation::Implementation::review(double dt, support::Diagnostics& diagnos
   next_review_ = steps_ + std::clamp<std::uint64_t>(steps_, 1, kReviewEvery);
   double potential = 0;
   if (forces_->potential_energy(now_.motion, now_.time, potential))
-    guard_.note_energy(kinetic_energy(now_), potential);
+    guard_.note_energy(free_kinetic_energy(now_), potential);
   if (!estimator_.has_stiffened(now_, equations_.inverse_mass())) return true;
   if (!find_limit(diagnostics)) return false;
   if (info_->adaptive) return true;

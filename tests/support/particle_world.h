@@ -67,6 +67,19 @@ class ParticleWorld {
     return vec(state.store.get(id("velocity"), dart(k)));
   }
 
+  /// Vertices that move as `text` says: a vec3, with `time` and what is known at the vertex `a`.
+  engine::PrescribedMotion moved(const std::vector<std::uint32_t>& particles, const std::string& text,
+                                 bool gives_position) {
+    const check::CheckedExpression checked = check::check_expression(
+        rules_, 1, sources.add("motion", text), {types::ValueKind::Vec3}, sources, diagnostics);
+    REQUIRE_MESSAGE(checked.value, messages());
+    engine::PrescribedMotion motion;
+    motion.gives_position = gives_position;
+    motion.expression = {checked.value, checked.dart, checked.frame_size};
+    for (const std::uint32_t k : particles) motion.vertices.push_back(dart(k));
+    return motion;
+  }
+
   /// Null after an error, which is in `diagnostics`.
   std::unique_ptr<engine::Simulation> simulate(std::unique_ptr<engine::ForceField> forces,
                                                IntegratorSettings settings,

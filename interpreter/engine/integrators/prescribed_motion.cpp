@@ -16,7 +16,7 @@ constexpr double kWeight[] = {0.2369268850561891, 0.4786286704993665, 0.56888888
 
 /// A difference quotient over this part of a step is exact to rounding for motions that the
 /// integrator resolves, and stays on one side of most kinks.
-constexpr double kDifference = 1. / 16;
+constexpr double kDifference = 1. / 8;
 
 }  // namespace
 
