@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/builtins.h"
+#include "engine/kernel/lane_functions.h"
 
 namespace gmsim::engine {
 
@@ -189,7 +190,7 @@ void eigen_symmetric3(const double* matrix, double values[3], double vectors[3][
   }
 }
 
-void polar_rotation3(const double* f, double* r) {
+void polar_by_singular_values(const double* f, double* r) {
   const double scale = power_of_two_scale(f, 9);
   if (scale == 0.0) {
     const bool zero = std::all_of(f, f + 9, [](double x) { return x == 0.0; });

@@ -84,6 +84,17 @@ TEST_CASE("every operation gives the bits of the tree evaluator") {
   }
 }
 
+TEST_CASE("rotations and eigenvectors of any matrix give the bits of the tree evaluator") {
+  Graph graph;
+  const NodeId a = position(graph, 0), b = position(graph, 1), c = position(graph, 2);
+  const NodeId m = graph.make(Op::Columns, a, b, c), s = graph.make(Op::Sym, m);
+  const std::vector<NodeId> roots = {
+      graph.make(Op::Polar, m), graph.make(Op::MaxEigenvalue, s), graph.make(Op::MaxEigenvector, s),
+      graph.make(Op::MinEigenvalue, s), graph.make(Op::MinEigenvector, s)};
+  std::mt19937 random(11);
+  compare_graph(graph, roots, 300, random);
+}
+
 TEST_CASE("programs of the whole library give the bits of the tree evaluator") {
   std::size_t shapes_seen = 0;
   std::mt19937 random(5);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/builtins.h"
 #include "engine/kernel/block_frame.h"
 
 #if defined(__x86_64__)
@@ -19,6 +20,8 @@ namespace {
 namespace lanes {
 #include "engine/kernel/vector.h"
 #include "engine/kernel/vector_math.h"
+// In this order: both need vector.h.
+#include "engine/kernel/vector_polar.h"
 }  // namespace lanes
 
 /// An unevaluated sum, the second below half a unit in the last place of the first.
@@ -153,6 +156,13 @@ double general_power(double x, double y) {
   if (y != std::floor(y)) return NAN;
   const bool odd = std::fmod(y, 2.0) != 0;
   return odd ? -positive_power(-x, y) : positive_power(-x, y);
+}
+
+void polar_rotation3(const double* f, double* r) {
+  lanes::Pack<9> m;
+  for (int k = 0; k < 9; ++k) m.c[k] = lanes::broadcast(f[k]);
+  m = lanes::polar_rotation(m);
+  for (int k = 0; k < 9; ++k) r[k] = m.c[k][0];
 }
 
 namespace fixed_order {

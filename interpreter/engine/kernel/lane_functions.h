@@ -21,6 +21,10 @@ struct QuadrantReduction {
 /// library.
 [[nodiscard]] double general_power(double x, double y);
 
+/// The rotation closest to F for any F, by one-sided Jacobi rotations; see polar_rotation3, which
+/// does ordinary matrices faster.
+void polar_by_singular_values(const double* f, double* r);
+
 /// The functions of engine/kernel/vector_math.h for one number: the same bits.
 namespace fixed_order {
 [[nodiscard]] double exp(double x);

@@ -18,6 +18,7 @@ using Instruction = compile::KernelInstruction;
 // clang-format off: each builds on those before it
 #include "engine/kernel/vector.h"
 #include "engine/kernel/vector_math.h"
+#include "engine/kernel/vector_polar.h"
 #include "engine/kernel/ops_move.h"
 #include "engine/kernel/ops_real.h"
 #include "engine/kernel/ops_tensor.h"

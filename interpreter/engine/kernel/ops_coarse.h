@@ -2,15 +2,7 @@
 // Polar rotations and eigenvalues. Included inside the namespace of one instruction set.
 
 static void polar(const Instruction& in, BlockFrame& f) {
-  run<9, 9>(in, f, [](Pack<9> m) {
-    for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      double from[9], to[9];
-      for (int k = 0; k < 9; ++k) from[k] = m.c[k][lane];
-      engine::polar_rotation3(from, to);
-      for (int k = 0; k < 9; ++k) m.c[k][lane] = to[k];
-    }
-    return m;
-  });
+  run<9, 9>(in, f, [](const Pack<9>& m) { return polar_rotation(m); });
 }
 
 /// Eigenvalues in descending order, and the vector of number `which`.
