@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/dart_expression.h"
 #include "engine/state.h"
+#include "engine/tear_model.h"
 #include "support/span.h"
 #include "types/expr.h"
 #include "types/value.h"
@@ -14,13 +16,6 @@
 /// What is simulated: which interactions act, with which parameters, and what moves by decree.
 /// Plain data, made by a scene and read by Simulation.
 namespace gmsim::engine {
-
-/// An expression that the engine evaluates at a dart, with its own frame.
-struct DartExpression {
-  types::ExprPtr value;
-  Slot dart{};
-  std::uint32_t frame_size = 1;
-};
 
 /// How a parameter of an interaction gets its value (language, parameters).
 struct ParameterBinding {
@@ -51,10 +46,19 @@ struct PrescribedMotion {
   support::Span span;
 };
 
+/// A fixed vertex that does not simply stay fixed in all its parts when it is split.
+struct Hold {
+  DartId vertex = gmap::kNoDart;
+  OnSplit on_split = OnSplit::Both;
+};
+
 /// Vertices with the embedding `fixed` do not move at all.
 struct Model {
   std::vector<ActiveInteraction> interactions;
   std::vector<PrescribedMotion> motions;
+  std::vector<TearPairing> tears;
+  std::vector<StandingRewrite> rewrites;
+  std::vector<Hold> holds;
 };
 
 /// What happens when the step is above the stability limit.

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/model.h"
+#include "engine/dart_expression.h"
+#include "engine/state.h"
+#include "support/span.h"
 
 /// When what breaks: the `tear:` and `rewrite:` lists of a scene. Plain data.
 namespace gmsim::engine {
