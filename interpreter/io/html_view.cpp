@@ -43,10 +43,10 @@ std::string json(const FieldDescription& field, const ValueRange& range) {
 
 /// The tables of a mesh, one after another from `at` on.
 std::string json(const ViewMesh& mesh, ViewBlock& block) {
-  const std::size_t at = block.add(std::span(mesh.points));
+  const std::size_t at = block.add_numbers(mesh.points);
   for (const auto* table : {&mesh.cells, &mesh.triangles, &mesh.triangle_cells, &mesh.edges,
                             &mesh.lines, &mesh.line_cells, &mesh.dots, &mesh.dot_cells})
-    block.add(std::span(*table));
+    block.add_numbers(*table);
   return fmt::format(
       R"({{"at": {}, "all_points": {}, "all_cells": {}, "points": {}, "cells": {}, )"
       R"("triangles": {}, "edges": {}, "outline": {}, "lines": {}, "dots": {}}})",

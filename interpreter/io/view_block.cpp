@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/base64.h"
 #include "support/check.h"
@@ -32,19 +33,34 @@ Quantiser ValueRange::quantiser(std::uint32_t steps) const {
   return {low.value_or(0), high.value_or(0), steps};
 }
 
-template <class Number>
-std::size_t ViewBlock::append(std::span<const Number> values) {
-  bytes_.resize((bytes_.size() + 3) / 4 * 4);
+std::size_t ViewBlock::add_numbers(std::span<const std::uint32_t> numbers) {
   const std::size_t begin = bytes_.size();
-  for (const Number value : values)
-    for (std::size_t byte = 0; byte < sizeof(Number); ++byte)
-      bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * byte)));
+  std::uint32_t before = 0;
+  for (const std::uint32_t number : numbers) {
+    const std::uint32_t difference = number - std::exchange(before, number);
+    for (unsigned byte = 0; byte < 4; ++byte)
+      bytes_.push_back(static_cast<std::uint8_t>(difference >> (8 * byte)));
+  }
   return begin;
 }
 
-std::size_t ViewBlock::add(std::span<const std::uint32_t> values) { return append(values); }
-std::size_t ViewBlock::add(std::span<const std::uint16_t> values) { return append(values); }
-std::size_t ViewBlock::add(std::span<const std::uint8_t> values) { return append(values); }
+std::size_t ViewBlock::add_steps(std::span<const std::uint16_t> steps) {
+  const std::size_t begin = bytes_.size(), count = steps.size();
+  bytes_.resize(begin + 2 * count);
+  std::uint16_t before = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int difference = steps[i] - std::exchange(before, steps[i]);
+    bytes_[begin + i] = static_cast<std::uint8_t>(difference);
+    bytes_[begin + count + i] = static_cast<std::uint8_t>(difference >> 8);
+  }
+  return begin;
+}
+
+std::size_t ViewBlock::add_values(std::span<const std::uint8_t> values) {
+  const std::size_t begin = bytes_.size();
+  bytes_.insert(bytes_.end(), values.begin(), values.end());
+  return begin;
+}
 
 std::string ViewBlock::deflated_base64() const {
   uLongf size = compressBound(bytes_.size());

@@ -30,20 +30,21 @@ struct ValueRange {
   [[nodiscard]] Quantiser quantiser(std::uint32_t steps) const;
 };
 
-/// Little-endian tables one after another, each at a multiple of four bytes.
+/// Tables one after another, in forms that can be deflated well: neighbours in a mesh have numbers
+/// and positions that differ little. Each function returns the byte its table begins at.
 class ViewBlock {
  public:
-  /// Appends a table and returns the byte it begins at.
-  std::size_t add(std::span<const std::uint32_t> values);
-  std::size_t add(std::span<const std::uint16_t> values);
-  std::size_t add(std::span<const std::uint8_t> values);
+  /// Four bytes a number, little-endian: the difference to the number before, modulo 2^32.
+  std::size_t add_numbers(std::span<const std::uint32_t> numbers);
+  /// Differences modulo 2^16 likewise: the low bytes of all, then the high bytes.
+  std::size_t add_steps(std::span<const std::uint16_t> steps);
+  /// As they are.
+  std::size_t add_values(std::span<const std::uint8_t> values);
   [[nodiscard]] std::span<const std::uint8_t> bytes() const { return bytes_; }
   /// zlib's format (RFC 1950), as base64.
   [[nodiscard]] std::string deflated_base64() const;
 
  private:
-  template <class Number>
-  std::size_t append(std::span<const Number> values);
   std::vector<std::uint8_t> bytes_;
 };
 

@@ -86,11 +86,11 @@ ViewFrame add_frame(const RunDescription& run, const ViewScale& scale, std::size
   if (same_mesh)
     for (std::size_t i = 0; i < stored.size(); ++i)
       stored[i] = static_cast<std::uint16_t>(stored[i] - before.positions[i]);
-  ViewFrame at{.positions = block.add(stored), .fields = {}};
+  ViewFrame at{.positions = block.add_steps(stored), .fields = {}};
   for (std::size_t i = 0; i < scale.fields.size(); ++i) {
     auto values = values_of(scale, i, run.fields[scale.fields[i]], mesh, frame);
     const bool unchanged = same_mesh && values == before.values[i];
-    at.fields.push_back(unchanged ? before.at.fields[i] : block.add(values));
+    at.fields.push_back(unchanged ? before.at.fields[i] : block.add_values(values));
     before.values[i] = std::move(values);
   }
   before.mesh = scale.mesh_of[number];

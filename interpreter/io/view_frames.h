@@ -35,11 +35,11 @@ struct ViewScale {
 
 /// Where a frame stands in the block.
 struct ViewFrame {
-  std::size_t positions = 0;        ///< uint16: x of all points, then y, then z
-  std::vector<std::size_t> fields;  ///< uint8: a row for each point or cell
+  std::size_t positions = 0;        ///< steps: x of all points, then y, then z
+  std::vector<std::size_t> fields;  ///< values: one for each point or cell
 };
 /// Reads the frames again and appends them. Positions are the difference, modulo 65536, to the
-/// frame before where that has the same mesh: it packs better. Values that did not change are not
+/// frame before where that has the same mesh. Values that did not change are not
 /// stored again.
 [[nodiscard]] std::optional<std::vector<ViewFrame>> add_frames(const TrajectoryReader& reader,
                                                                const ViewScale& scale,

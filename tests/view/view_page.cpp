@@ -48,25 +48,26 @@ Bytes inflated(const Bytes& packed) {
   }
 }
 
-/// Reads tables of `width` bytes a number, one after another.
+/// Reads tables of numbers one after another.
 struct Tables {
   const Bytes& block;
   std::size_t at;
-  std::size_t width;
 
   std::vector<std::uint32_t> next(std::size_t count) {
-    at = (at + 3) / 4 * 4;
-    std::vector<std::uint32_t> numbers(count);
-    for (std::uint32_t& number : numbers)
-      for (std::size_t byte = 0; byte < width; ++byte)
-        number |= std::uint32_t{block.at(at++)} << (8 * byte);
+    std::vector<std::uint32_t> numbers;
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t byte = 0; byte < 4; ++byte)
+        sum += std::uint32_t{block.at(at++)} << (8 * byte);
+      numbers.push_back(sum);
+    }
     return numbers;
   }
 };
 
 ViewPage::Mesh read_mesh(const YAML::Node& node, const Bytes& block) {
   const auto count = [&](const char* name) { return node[name].as<std::size_t>(); };
-  Tables tables{block, count("at"), 4};
+  Tables tables{block, count("at")};
   ViewPage::Mesh mesh;
   mesh.all_points = count("all_points");
   mesh.all_cells = count("all_cells");
@@ -86,14 +87,16 @@ ViewPage::Mesh read_mesh(const YAML::Node& node, const Bytes& block) {
 void read_positions(std::size_t at, const Bytes& block, const ViewPage& page,
                     ViewPage::Frame& frame) {
   const std::size_t count = page.meshes[frame.mesh].points.size();
-  const auto stored = Tables{block, at, 2}.next(3 * count);
   const bool follows = !page.frames.empty() && page.frames.back().mesh == frame.mesh;
   frame.steps.resize(count);
   frame.positions.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+  std::uint32_t sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t low_byte = at + axis * count + i;
+      sum += block.at(low_byte) + 256u * block.at(low_byte + 3 * count);
       const std::uint32_t before = follows ? page.frames.back().steps[i][axis] : 0;
-      frame.steps[i][axis] = (stored[axis * count + i] + before) & 0xffff;
+      frame.steps[i][axis] = (sum + before) & 0xffff;
       frame.positions[i][axis] =
           page.low[axis] + frame.steps[i][axis] * (page.high[axis] - page.low[axis]) / 65534;
     }
@@ -112,10 +115,11 @@ ViewPage::Frame read_frame(const YAML::Node& node, const Bytes& block, const Vie
   for (std::size_t i = 0; i < page.fields.size(); ++i) {
     const ViewPage::Field& field = page.fields[i];
     const std::size_t rows = field.on == "point" ? mesh.points.size() : mesh.cells.size();
-    frame.value_steps.push_back(
-        Tables{block, node["fields"][i].as<std::size_t>(), 1}.next(rows));
+    const auto at = node["fields"][i].as<std::size_t>();
+    auto& steps = frame.value_steps.emplace_back();
+    for (std::size_t row = 0; row < rows; ++row) steps.push_back(block.at(at + row));
     auto& values = frame.values.emplace_back();
-    for (const std::uint32_t step : frame.value_steps.back())
+    for (const std::uint32_t step : steps)
       values.push_back(field.low + (field.high - field.low) * step / 254);
   }
   return frame;

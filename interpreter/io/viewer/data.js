@@ -15,8 +15,9 @@ async function inflate(base64) {
 function meshTables(block, mesh) {
   let at = mesh.at;
   const table = (length) => {
-    const numbers = new Uint32Array(block, at, length);
+    const numbers = new Uint32Array(block.slice(at, at + 4 * length));
     at += 4 * length;
+    for (let i = 1; i < length; ++i) numbers[i] += numbers[i - 1];
     return numbers;
   };
   const { all_points: allPoints, all_cells: allCells, points, cells, outline } = mesh;
@@ -34,6 +35,18 @@ function meshTables(block, mesh) {
   };
 }
 
+/** `count` steps from byte `at` on, as differences: their low bytes, then their high bytes. */
+function stepTable(block, at, count, before) {
+  const bytes = new Uint8Array(block, at, 2 * count);
+  const steps = new Uint16Array(count);
+  let sum = 0;
+  for (let i = 0; i < count; ++i) {
+    sum += bytes[i] + 256 * bytes[count + i];
+    steps[i] = sum + (before ? before[i] : 0);
+  }
+  return steps;
+}
+
 /** One run: frames by their position in the page. */
 export class Run {
   constructor(head, block) {
@@ -41,14 +54,12 @@ export class Run {
     this.block = block;
     this.meshes = head.meshes.map((mesh) => meshTables(block, mesh));
     this.frames = head.frames;
-    this.steps = this.frames.map((frame, k) =>
-      new Uint16Array(block, frame.positions, 3 * this.mesh(k).points));
+    this.steps = [];
     // Frames are stored as the difference to the one before where that has the same mesh.
-    for (let k = 1; k < this.frames.length; ++k) {
-      if (this.frames[k].mesh !== this.frames[k - 1].mesh) continue;
-      const before = this.steps[k - 1];
-      this.steps[k].forEach((step, i, all) => { all[i] = step + before[i]; });
-    }
+    this.frames.forEach((frame, k) => {
+      const before = k > 0 && this.mesh(k) === this.mesh(k - 1) ? this.steps[k - 1] : null;
+      this.steps.push(stepTable(block, frame.positions, 3 * this.mesh(k).points, before));
+    });
   }
 
   mesh(frame) {
