@@ -73,10 +73,16 @@ GMSIM_INLINE void store_records(const double* x, const double* y, const double* 
 }
 #endif
 
-/// Records are never fetched past the last match: lanes there repeat it.
-template <typename Fetch>
-GMSIM_INLINE void gather_records(double* d, const BlockFrame& f, const Fetch& fetch) {
-  for (std::size_t i = 0; i < f.active; i += 4)
+/// Four lanes at a time, the last ones repeating the last match: fetch(lane) reads a record, and
+/// fetch_inside(lane) does so for lanes of matches.
+template <typename FetchInside, typename Fetch>
+GMSIM_INLINE void gather_records(double* d, const BlockFrame& f, const FetchInside& fetch_inside,
+                                 const Fetch& fetch) {
+  std::size_t i = 0;
+  for (; i + 4 <= f.count; i += 4)
+    store_columns(d + i, f.row, fetch_inside(i), fetch_inside(i + 1), fetch_inside(i + 2),
+                  fetch_inside(i + 3));
+  for (; i < f.active; i += 4)
     store_columns(d + i, f.row, fetch(i), fetch(i + 1), fetch(i + 2), fetch(i + 3));
 }
 
@@ -93,14 +99,25 @@ static void gather(const Instruction& in, BlockFrame& f) {
   const InputBinding& binding = f.inputs[in.numbers[0]];
   const Writer to = writer(f, in.d);
   if (N == 3 && binding.rows != nullptr && in_records(binding.base, binding.stride)) {
-    return gather_records(to.first, f,
-                          [&](std::size_t lane) { return load_record(source(binding, f, lane)); });
+    const double* base = binding.base;
+    const std::uint32_t* rows = binding.rows + f.begin;
+    return gather_records(
+        to.first, f,
+        [=](std::size_t lane) { return load_record(base + 4 * std::size_t(rows[lane])); },
+        [&](std::size_t lane) { return load_record(source(binding, f, lane)); });
   }
-  if (N == 1 && binding.rows == nullptr && binding.per_match && binding.stride == 1 &&
-      f.count == f.active) {
-    const double* from = binding.base + f.begin;
-    for (std::size_t i = 0; i < f.count; ++i) to.first[i] = from[i];
-    return;
+  if (N == 1 && f.count == f.active) {
+    if (binding.rows != nullptr) {
+      const double* base = binding.base;
+      const std::uint32_t* rows = binding.rows + f.begin;
+      const std::size_t stride = binding.stride;
+      for (std::size_t i = 0; i < f.count; ++i) to.first[i] = base[stride * rows[i]];
+      return;
+    }
+    if (binding.per_match && binding.stride == 1) {
+      __builtin_memcpy(to.first, binding.base + f.begin, f.count * sizeof(double));
+      return;
+    }
   }
   gather_any<N>(binding, to.first, to.row, f);
 }
@@ -112,9 +129,17 @@ static void gather_difference(const Instruction& in, BlockFrame& f) {
     return x.rows != nullptr && in_records(x.base, x.stride);
   };
   if (by_records(a) && by_records(b)) {
-    return gather_records(to.first, f, [&](std::size_t lane) {
-      return difference(load_record(source(a, f, lane)), load_record(source(b, f, lane)));
-    });
+    const double *base_a = a.base, *base_b = b.base;
+    const std::uint32_t *rows_a = a.rows + f.begin, *rows_b = b.rows + f.begin;
+    return gather_records(
+        to.first, f,
+        [=](std::size_t lane) {
+          return difference(load_record(base_a + 4 * std::size_t(rows_a[lane])),
+                            load_record(base_b + 4 * std::size_t(rows_b[lane])));
+        },
+        [&](std::size_t lane) {
+          return difference(load_record(source(a, f, lane)), load_record(source(b, f, lane)));
+        });
   }
   for (std::size_t i = 0; i < f.active; ++i) {
     const double *from_a = source(a, f, i), *from_b = source(b, f, i);
@@ -122,22 +147,21 @@ static void gather_difference(const Instruction& in, BlockFrame& f) {
   }
 }
 
-/// x - x is 0, or not a number.
+/// x - x is 0, or not a number: so is the sum over all entries.
 template <int N>
-static bool all_finite(const Reader& from, const BlockFrame& f) {
-  V sum = {};
-  for (std::size_t i = 0; i < f.active; i += kWidth) {
-    const Pack<N> pack = read<N>(from, i);
-    for (int k = 0; k < N; ++k) sum += pack.c[k] - pack.c[k];
-  }
-  return !any(sum != sum);
+GMSIM_INLINE V finite_test(const Pack<N>& pack) {
+  V sum = pack.c[0] - pack.c[0];
+  for (int k = 1; k < N; ++k) sum += pack.c[k] - pack.c[k];
+  return sum;
 }
 
 template <int N>
 static void store(const Instruction& in, BlockFrame& f) {
   const OutputBinding& out = f.outputs[in.numbers[0]];
   const Reader from = reader(f, in.operands[0]);
-  if (!all_finite<N>(from, f)) f.finite = false;
+  V test = {};
+  each_vector(f.active, [&](std::size_t i) { test += finite_test(read<N>(from, i)); });
+  if (any(test != test)) f.finite = false;
   double* to = out.base + std::size_t(out.stride) * f.begin;
   std::size_t i = 0;
   if (N == 3 && in_records(out.base, out.stride) && from.moving != 0) {

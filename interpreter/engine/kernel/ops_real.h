@@ -7,22 +7,35 @@ template <int R, int A, typename Operation>
 GMSIM_INLINE void run(const Instruction& in, BlockFrame& f, const Operation& operation) {
   const Reader a = reader(f, in.operands[0]);
   const Writer d = writer(f, in.d);
-  for (std::size_t i = 0; i < f.active; i += kWidth) write<R>(d, i, operation(read<A>(a, i)));
+  each_vector(f.active, [&](std::size_t i) { write<R>(d, i, operation(read<A>(a, i))); });
 }
 template <int R, int A, int B, typename Operation>
 GMSIM_INLINE void run(const Instruction& in, BlockFrame& f, const Operation& operation) {
   const Reader a = reader(f, in.operands[0]), b = reader(f, in.operands[1]);
   const Writer d = writer(f, in.d);
-  for (std::size_t i = 0; i < f.active; i += kWidth)
-    write<R>(d, i, operation(read<A>(a, i), read<B>(b, i)));
+  if ((a.moving & b.moving) != 0) {
+    each_vector(f.active, [&](std::size_t i) {
+      write<R>(d, i, operation(read_moving<A>(a, i), read_moving<B>(b, i)));
+    });
+  } else {
+    each_vector(f.active,
+                [&](std::size_t i) { write<R>(d, i, operation(read<A>(a, i), read<B>(b, i))); });
+  }
 }
 template <int R, int A, int B, int C, typename Operation>
 GMSIM_INLINE void run(const Instruction& in, BlockFrame& f, const Operation& operation) {
   const Reader a = reader(f, in.operands[0]), b = reader(f, in.operands[1]);
   const Reader c = reader(f, in.operands[2]);
   const Writer d = writer(f, in.d);
-  for (std::size_t i = 0; i < f.active; i += kWidth)
-    write<R>(d, i, operation(read<A>(a, i), read<B>(b, i), read<C>(c, i)));
+  if ((a.moving & b.moving & c.moving) != 0) {
+    each_vector(f.active, [&](std::size_t i) {
+      write<R>(d, i, operation(read_moving<A>(a, i), read_moving<B>(b, i), read_moving<C>(c, i)));
+    });
+  } else {
+    each_vector(f.active, [&](std::size_t i) {
+      write<R>(d, i, operation(read<A>(a, i), read<B>(b, i), read<C>(c, i)));
+    });
+  }
 }
 
 // name(a, b, c): one line of arithmetic on numbers.

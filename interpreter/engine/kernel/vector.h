@@ -111,6 +111,13 @@ GMSIM_INLINE Pack<N> read(const Reader& from, std::size_t lane) {
   for (int k = 0; k < N; ++k) pack.c[k] = load(at + k * from.row);
   return pack;
 }
+/// The same from a register that is not uniform.
+template <int N>
+GMSIM_INLINE Pack<N> read_moving(const Reader& from, std::size_t lane) {
+  Pack<N> pack;
+  for (int k = 0; k < N; ++k) pack.c[k] = load(from.first + lane + k * from.row);
+  return pack;
+}
 struct Writer {
   double* first;
   std::size_t row;
@@ -121,4 +128,11 @@ GMSIM_INLINE Writer writer(const BlockFrame& frame, const compile::Register& r) 
 template <int N>
 GMSIM_INLINE void write(const Writer& to, std::size_t lane, const Pack<N>& pack) {
   for (int k = 0; k < N; ++k) store(to.first + lane + k * to.row, pack.c[k]);
+}
+
+/// body(lane) for the first lane of each vector, some vectors a turn.
+template <typename Body>
+GMSIM_INLINE void each_vector(std::size_t lanes, const Body& body) {
+  for (std::size_t i = 0; i < lanes; i += compile::kUniformLanes)
+    for (std::size_t k = 0; k < compile::kUniformLanes; k += kWidth) body(i + k);
 }
