@@ -42,6 +42,8 @@ class ShapeInputs {
   /// How many numbers a match of this shape knows itself: random draws, and derived values that do
   /// not change while the integrator runs.
   [[nodiscard]] std::uint32_t own_count() const { return own_count_; }
+  /// The same value by value: how many numbers each has.
+  [[nodiscard]] std::vector<std::uint32_t> own_widths() const;
   /// Appends them for the match with these roles.
   std::optional<support::Diagnostic> read_own(TreeEvaluator& reader,
                                               std::span<const compile::Role> roles,

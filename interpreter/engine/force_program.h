@@ -2,13 +2,26 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "compile/ir.h"
 #include "compile/specialise.h"
+#include "engine/force_field.h"
 #include "engine/force_inputs.h"
 
 namespace gmsim::engine {
+
+/// What an evaluation depends on besides the store: rows of the vertex index.
+struct ForceMoment {
+  std::span<const VertexRecord> position;          ///< m
+  std::span<const VertexRecord> velocity;          ///< m/s
+  std::span<const VertexRecord> position_change = {};
+  std::span<const VertexRecord> velocity_change = {};
+  double time = 0;  ///< s
+  double dt = 0;    ///< s
+  double step = 0;  ///< steps completed
+};
 
 /// Something to compute of every match of a shape: a graph, its roots, and where the inputs that
 /// these depend on come from.

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/force_bound.h"
+#include "engine/force_evaluate.h"
 #include "engine/force_report.h"
 #include "support/check.h"
 
@@ -39,35 +40,8 @@ std::optional<support::Diagnostic> TreeInteraction::rebuild() {
 }
 
 void TreeInteraction::run(Evaluation& evaluation, const ForceMatch& match,
-                          const Moment& moment) const {
-  const gmap::EmbeddingStore& store = context_.state.store;
-  const auto vector = [](const VertexRecord& record) {
-    return std::array<double, 3>{record.x, record.y, record.z};
-  };
-  for (const auto& [number, origin] : evaluation.program.inputs) {
-    const auto row = [&] { return match.roles.roles[origin.role].row; };
-    const auto set = [&, number = number](std::span<const double> entries) {
-      evaluation.evaluator.set_input(number, entries);
-    };
-    switch (origin.kind) {
-      case Kind::Position: set(vector(moment.motion.position[row()])); break;
-      case Kind::Velocity: set(vector(moment.motion.velocity[row()])); break;
-      case Kind::PositionChange: set(vector(moment.position_change[row()])); break;
-      case Kind::VelocityChange: set(vector(moment.velocity_change[row()])); break;
-      case Kind::Column:
-        set(store.column(origin.embedding).get(row()).subspan(origin.offset, origin.width));
-        break;
-      case Kind::Own: set({match.own.data() + origin.offset, origin.width}); break;
-      case Kind::Time: set({&moment.time, 1}); break;
-      case Kind::Dt: set({&moment.dt, 1}); break;
-      case Kind::Step: {
-        const auto step = static_cast<double>(context_.state.step);
-        set({&step, 1});
-        break;
-      }
-    }
-  }
-  evaluation.evaluator.run();
+                          const ForceMoment& moment) const {
+  evaluate_match(evaluation.program, match, moment, context_.state.store, evaluation.evaluator);
 }
 
 // ---- the whole model ----------------------------------------------------------------------------
@@ -97,10 +71,13 @@ class TreeForces final : public ForceField {
   [[nodiscard]] std::string explain() const override;
 
  private:
-  using Moment = TreeInteraction::Moment;
   using Evaluation = TreeInteraction::Evaluation;
 
   [[nodiscard]] bool reads(Kind kind) const;
+  [[nodiscard]] ForceMoment moment(const Motion& motion, double time) const {
+    return {.position = motion.position, .velocity = motion.velocity, .time = time,
+            .dt = context_.state.dt, .step = static_cast<double>(context_.state.step)};
+  }
   /// Adds the roots of an evaluation to the vertices of a match. False: not finite.
   bool add_roots(TreeInteraction& of, const ForceMatch& match, Evaluation& evaluation,
                  std::span<VertexRecord> out);
@@ -135,10 +112,12 @@ bool TreeForces::evaluate(const Motion& motion, double time, double dt,
                           std::span<VertexRecord> force) {
   std::fill(force.begin(), force.end(), VertexRecord{});
   if (error_) return false;
+  ForceMoment now = moment(motion, time);
+  now.dt = dt;
   for (const auto& of : interactions_) {
     for (const ForceMatch& match : of->matches()) {
       Evaluation& evaluation = of->programs(match).force;
-      of->run(evaluation, match, Moment{.motion = motion, .time = time, .dt = dt});
+      of->run(evaluation, match, now);
       if (!add_roots(*of, match, evaluation, force)) return false;
     }
   }
@@ -152,7 +131,7 @@ bool TreeForces::potential_energy(const Motion& motion, double time, double& ene
     for (const ForceMatch& match : of->matches()) {
       Evaluation& evaluation = of->programs(match).energy;
       if (evaluation.program.roots.empty()) continue;
-      of->run(evaluation, match, Moment{.motion = motion, .time = time, .dt = context_.state.dt});
+      of->run(evaluation, match, moment(motion, time));
       const double value = evaluation.evaluator.number(evaluation.program.roots[0]);
       if (!std::isfinite(value)) {
         error_ = non_finite(of->body(), match, evaluation.program, evaluation.evaluator);
@@ -168,10 +147,13 @@ bool TreeForces::product(const Motion& motion, double time, std::span<const Vert
                          std::span<const VertexRecord> dv, std::span<VertexRecord> out) {
   std::fill(out.begin(), out.end(), VertexRecord{});
   if (error_) return false;
+  ForceMoment now = moment(motion, time);
+  now.position_change = dx;
+  now.velocity_change = dv;
   for (const auto& of : interactions_) {
     for (const ForceMatch& match : of->matches()) {
       Evaluation& evaluation = of->programs(match).product;
-      of->run(evaluation, match, Moment{motion, dx, dv, time, context_.state.dt});
+      of->run(evaluation, match, now);
       if (!add_roots(*of, match, evaluation, out)) return false;
     }
   }
@@ -187,12 +169,13 @@ bool TreeForces::jacobian(TreeInteraction& of, const ForceMatch& match, const Mo
   out.assign(n * n, 0.0);
   zeros_.resize(motion.position.size());
   std::vector<VertexRecord> along(zeros_);
+  ForceMoment now = moment(motion, time);
+  now.position_change = of_velocity ? zeros_ : along;
+  now.velocity_change = of_velocity ? along : zeros_;
   for (std::size_t column = 0; column < n; ++column) {
     VertexRecord& at = along[match.roles.roles[shape.forces[column / 3].role].row];
     (column % 3 == 0 ? at.x : column % 3 == 1 ? at.y : at.z) = 1;
-    of.run(evaluation, match,
-           Moment{motion, of_velocity ? zeros_ : along, of_velocity ? along : zeros_, time,
-                  context_.state.dt});
+    of.run(evaluation, match, now);
     at = {};
     for (std::size_t row = 0; row < n; ++row) {
       const Entries& value = evaluation.evaluator[evaluation.program.roots[row / 3]];
@@ -232,7 +215,7 @@ std::vector<support::Diagnostic> TreeForces::notices(const Motion& motion, doubl
     for (const ForceMatch& match : of->matches()) {
       Evaluation& evaluation = of->programs(match).direction;
       if (evaluation.program.roots.empty()) continue;
-      of->run(evaluation, match, Moment{.motion = motion, .time = time, .dt = context_.state.dt});
+      of->run(evaluation, match, moment(motion, time));
       if (evaluation.evaluator.number(evaluation.program.roots[0]) == 0) continue;
       if (warned_.emplace(of->number(), match.key).second)
         result.push_back(

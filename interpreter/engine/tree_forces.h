@@ -21,14 +21,6 @@ class TreeInteraction {
   /// Finds all matches anew.
   Diagnostic rebuild();
 
-  /// What an evaluation depends on besides the store.
-  struct Moment {
-    const Motion& motion;
-    std::span<const VertexRecord> position_change = {};
-    std::span<const VertexRecord> velocity_change = {};
-    double time = 0;
-    double dt = 0;
-  };
   /// One thing to compute of every match of a shape. The evaluator refers to the program.
   struct Evaluation {
     explicit Evaluation(ForceProgram of) : program(std::move(of)), evaluator(program.graph) {}
@@ -42,7 +34,7 @@ class TreeInteraction {
     Programs(const compile::Shape& shape, const ShapeInputs& inputs);
     Evaluation force, energy, product, direction;
   };
-  void run(Evaluation& evaluation, const ForceMatch& match, const Moment& moment) const;
+  void run(Evaluation& evaluation, const ForceMatch& match, const ForceMoment& moment) const;
 
   [[nodiscard]] const std::vector<ForceMatch>& matches() const { return matches_; }
   [[nodiscard]] Programs& programs(const ForceMatch& match) { return *programs_[match.shape]; }

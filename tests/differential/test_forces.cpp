@@ -2,6 +2,8 @@
 // The forces of whole models: single matches summed up, the laws of mechanics, derivatives, bounds.
 #include <doctest/doctest.h>
 
+#include <cstring>
+
 #include "engine/ir_evaluate.h"
 #include "force_world.h"
 #include "gmap/mesh_builders.h"
@@ -25,6 +27,14 @@ bool any(const compile::InteractionBody&) { return true; }
 std::unique_ptr<engine::ForceField> tree_forces(ForceWorld& world, const engine::Model& model) {
   support::Diagnostics diagnostics;
   auto forces = engine::make_tree_forces(world.state(), model, diagnostics);
+  REQUIRE_MESSAGE(forces, diagnostics.all().front().message);
+  return forces;
+}
+
+std::unique_ptr<engine::ForceField> kernel_forces(ForceWorld& world, const engine::Model& model,
+                                                  unsigned threads = 1) {
+  support::Diagnostics diagnostics;
+  auto forces = engine::make_kernel_forces(world.state(), model, threads, diagnostics);
   REQUIRE_MESSAGE(forces, diagnostics.all().front().message);
   return forces;
 }
@@ -288,4 +298,87 @@ TEST_CASE("a force that is not finite names its rule, match and place") {
   CHECK(forces->error()->message.find("`stretch_spring`") != std::string::npos);
   CHECK(forces->error()->message.find("a = ") != std::string::npos);
   CHECK(forces->error()->place.has_value());
+}
+
+// ---- kernels ------------------------------------------------------------------------------------
+
+namespace {
+
+bool same_bits(const Records& a, const Records& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), a.size() * sizeof(VertexRecord)) == 0;
+}
+
+/// Forces, products and energies of two fields, bit by bit, at several motions.
+void compare_bits(engine::ForceField& expected, engine::ForceField& got, ForceWorld& world,
+                  std::uint32_t seed) {
+  engine::Motion motion = world.motion();
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const double time = 0.3 * k;
+    CHECK(same_bits(evaluate(expected, motion, time), evaluate(got, motion, time)));
+    const Records dx = random_records(motion.position.size(), seed + k);
+    const Records dv = random_records(motion.position.size(), seed + k + 50);
+    Records product(dx.size()), other(dx.size());
+    REQUIRE(expected.product(motion, time, dx, dv, product));
+    REQUIRE(got.product(motion, time, dx, dv, other));
+    CHECK(same_bits(product, other));
+    double energy = 0, other_energy = 0;
+    REQUIRE(expected.potential_energy(motion, time, energy));
+    REQUIRE(got.potential_energy(motion, time, other_energy));
+    CHECK(energy == other_energy);
+    motion.position = plus(motion.position, scaled(0.05, dx));
+    motion.velocity = plus(motion.velocity, scaled(0.5, dv));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("kernels give the bits of the oracle, on any number of threads") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t seed) {
+    for (const bool uniform : {false, true}) {
+      const engine::Model model = model_of(world.program(), uniform, any);
+      const auto tree = tree_forces(world, model);
+      for (unsigned threads = 1; threads <= 4; ++threads) {
+        CAPTURE(threads);
+        const auto kernels = kernel_forces(world, model, threads);
+        CHECK(kernels->reads_velocity() == tree->reads_velocity());
+        CHECK(kernels->reads_time() == tree->reads_time());
+        compare_bits(*tree, *kernels, world, seed);
+      }
+    }
+  });
+}
+
+TEST_CASE("kernels find the oracle's bounds") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t) {
+    const engine::Model model = model_of(world.program(), false, any);
+    engine::ForceField::ElementBound expected, got;
+    REQUIRE(tree_forces(world, model)->element_bound(world.motion(), 0, expected));
+    REQUIRE(kernel_forces(world, model)->element_bound(world.motion(), 0, got));
+    CHECK(got.stiffness == doctest::Approx(expected.stiffness).epsilon(1e-12));  // another order
+    CHECK(got.damping == doctest::Approx(expected.damping).epsilon(1e-12));
+    CHECK(got.where == expected.where);
+    CHECK(got.interaction == expected.interaction);
+  });
+}
+
+TEST_CASE("kernels report what the oracle reports") {
+  ForceWorld world(gmap::chain(3, 3), 6);
+  const engine::Model model = model_of(
+      world.program(), false, [](const auto& body) { return body.name == "stretch_spring"; });
+  const auto tree = tree_forces(world, model);
+  const auto kernels = kernel_forces(world, model, 2);
+  engine::Motion motion = world.motion();
+  motion.position[1] = motion.position[0];
+  const auto expected = tree->notices(motion, 0), got = kernels->notices(motion, 0);
+  REQUIRE(expected.size() == 1);
+  REQUIRE(got.size() == 1);
+  CHECK(got[0].message == expected[0].message);
+  CHECK(kernels->notices(motion, 0).empty());
+  motion.position[2].y = std::nan("");
+  Records force(motion.position.size());
+  CHECK_FALSE(tree->evaluate(motion, 0, 1e-3, force));
+  CHECK_FALSE(kernels->evaluate(motion, 0, 1e-3, force));
+  CHECK(kernels->error()->message == tree->error()->message);
+  CHECK(kernels->error()->notes == tree->error()->notes);
 }

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "engine/force_sums.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gmsim::engine {
+
+namespace {
+
+/// A match of one of several tables.
+struct Entry {
+  DartId key;
+  std::uint32_t block;
+  std::uint32_t row;
+};
+
+/// All matches of an interaction in the order of their keys.
+std::vector<Entry> in_order(std::span<const ForceBlock> blocks) {
+  std::vector<Entry> entries;
+  for (std::uint32_t b = 0; b < blocks.size(); ++b)
+    for (std::uint32_t row = 0; row < blocks[b].table->size(); ++row)
+      entries.push_back({blocks[b].table->key(row), b, row});
+  const auto before = [](const Entry& a, const Entry& b) { return a.key < b.key; };
+  if (!std::is_sorted(entries.begin(), entries.end(), before))
+    std::sort(entries.begin(), entries.end(), before);
+  return entries;
+}
+
+}  // namespace
+
+void ForceSums::rebuild(std::span<const ForceBlock> blocks, Row vertices) {
+  lists_.assign(vertices, {});
+  for (const ForceBlock& block : blocks)
+    for (const std::uint32_t role : block.roles)
+      for (const Row vertex : block.table->rows(role)) ++lists_[vertex].capacity;
+  std::uint32_t begin = 0;
+  for (List& list : lists_) {
+    list.begin = begin;
+    begin += list.capacity;
+  }
+  slots_.resize(begin);
+  for (std::size_t first = 0, last = 0; first < blocks.size(); first = last) {
+    while (last < blocks.size() && blocks[last].interaction == blocks[first].interaction) ++last;
+    append(blocks.subspan(first, last - first));
+  }
+}
+
+void ForceSums::append(std::span<const ForceBlock> of_one_interaction) {
+  for (const Entry& entry : in_order(of_one_interaction)) {
+    const ForceBlock& block = of_one_interaction[entry.block];
+    for (std::uint32_t root = 0; root < block.roles.size(); ++root) {
+      List& list = lists_[block.table->rows(block.roles[root])[entry.row]];
+      slots_[list.begin + list.count++] = block.slot(root, entry.row);
+    }
+  }
+}
+
+void ForceSums::sum(const VertexRecord* forces, Row begin, Row end, VertexRecord* out) const {
+  using Four = double __attribute__((vector_size(32)));
+  const auto* values = reinterpret_cast<const Four*>(forces);
+  auto* sums = reinterpret_cast<Four*>(out);
+  for (Row vertex = begin; vertex < end; ++vertex) {
+    const List& list = lists_[vertex];
+    const std::uint32_t* slot = slots_.data() + list.begin;
+    Four sum = {};
+    for (std::uint32_t k = 0; k < list.count; ++k) sum += values[slot[k]];
+    sums[vertex] = sum;
+  }
+}
+
+}  // namespace gmsim::engine

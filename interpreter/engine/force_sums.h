@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/force_field.h"
+#include "engine/match_table.h"
+
+namespace gmsim::engine {
+
+/// Where the kernels of one table leave their forces: root k of match m in slot
+/// first + k * capacity + m of one array for all tables.
+struct ForceBlock {
+  const MatchTable* table = nullptr;
+  std::vector<std::uint32_t> roles;  ///< vertex of each root
+  std::uint32_t interaction = 0;     ///< number in the model
+  std::uint32_t first = 0;
+  std::uint32_t capacity = 0;        ///< matches there is room for
+
+  [[nodiscard]] std::uint32_t slot(std::uint32_t root, std::uint32_t match) const {
+    return first + root * capacity + match;
+  }
+};
+
+/// For each vertex the slots of the forces on it, in the canonical order: by interaction, by key of
+/// the match, by root. Sums follow this order, so they do not depend on rows, blocks or threads.
+class ForceSums {
+ public:
+  /// `blocks` in the order of their interactions; those of one interaction have different keys.
+  void rebuild(std::span<const ForceBlock> blocks, Row vertices);
+  /// out[v] := sum of the forces on vertex v, for begin <= v < end.
+  void sum(const VertexRecord* forces, Row begin, Row end, VertexRecord* out) const;
+  [[nodiscard]] std::span<const std::uint32_t> slots(Row vertex) const {
+    const List& list = lists_[vertex];
+    return {slots_.data() + list.begin, list.count};
+  }
+  [[nodiscard]] Row vertices() const { return static_cast<Row>(lists_.size()); }
+
+ private:
+  struct List {
+    std::uint32_t begin = 0;
+    std::uint32_t count = 0;
+    std::uint32_t capacity = 0;
+  };
+  void append(std::span<const ForceBlock> of_one_interaction);
+
+  std::vector<List> lists_;  // by vertex row
+  std::vector<std::uint32_t> slots_;
+};
+
+}  // namespace gmsim::engine

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "engine/force_bound.h"
+#include "engine/force_context.h"
+#include "engine/force_field.h"
+#include "engine/force_sums.h"
+#include "engine/force_tables.h"
+#include "engine/force_threads.h"
+
+namespace gmsim::engine {
+
+/// Forces by kernels over match tables: first the forces of all matches, block by block, then their
+/// sums vertex by vertex. Both are shared out among threads.
+class KernelForces final : public ForceField {
+ public:
+  KernelForces(const State& state, const Model& model, unsigned threads);
+
+  bool evaluate(const Motion& motion, double time, double dt,
+                std::span<VertexRecord> force) override;
+  bool potential_energy(const Motion& motion, double time, double& energy) override;
+  bool product(const Motion& motion, double time, std::span<const VertexRecord> dx,
+               std::span<const VertexRecord> dv, std::span<VertexRecord> out) override;
+  bool element_bound(const Motion& motion, double time, ElementBound& bound) override;
+  std::vector<support::Diagnostic> notices(const Motion& motion, double time) override;
+  [[nodiscard]] bool reads_velocity() const override {
+    return reads(InputOrigin::Kind::Velocity);
+  }
+  [[nodiscard]] bool reads_time() const override;
+  void refresh(std::span<const DartId> touched) override;
+  [[nodiscard]] const std::optional<support::Diagnostic>& error() const override { return error_; }
+  [[nodiscard]] std::string explain() const override;
+
+ private:
+  /// One table and the kernel that runs over it.
+  struct Job {
+    InteractionTables* of = nullptr;
+    std::uint32_t shape = 0;
+    const MatchTable* table = nullptr;
+    const ForceKernel* kernel = nullptr;
+    std::size_t block = 0;  ///< index into blocks_
+    std::vector<InputBinding> inputs;
+    std::vector<OutputBinding> outputs;
+  };
+  struct Task {
+    std::uint32_t job = 0;
+    std::uint32_t begin = 0, end = 0;  ///< matches
+  };
+  /// A match whose result is not finite.
+  struct Failure {
+    std::uint32_t task = 0xffffffffu;
+    std::uint32_t match = 0;
+  };
+
+  [[nodiscard]] bool reads(InputOrigin::Kind kind) const;
+  [[nodiscard]] ForceMoment moment(const Motion& motion, double time, double dt) const;
+  bool rebuild();
+  /// Blocks, jobs, tasks and sums for the tables as they are.
+  void lay_out();
+  void add_tasks(std::uint32_t job);
+  void bind_outputs(Job& job);
+  /// Runs jobs over their tables, then sums into `out`.
+  bool run(std::vector<Job>& jobs, const ForceMoment& moment, std::span<VertexRecord> out);
+  bool run_tables(std::vector<Job>& jobs, const ForceMoment& moment, bool alone);
+  void sum(std::span<VertexRecord> out, bool alone);
+  /// Numbers that a kernel with one root leaves for each match of a shape, `values` long enough.
+  bool run_numbers(InteractionTables& of, std::size_t shape, const ForceKernel& kernel,
+                   const ForceMoment& moment, std::vector<double>& values);
+  bool fail(InteractionTables& of, std::uint32_t shape, std::uint32_t row,
+            const ForceProgram& program, const ForceMoment& moment);
+  /// Adds the matrices of all matches of a shape.
+  bool add_bounds(InteractionTables& of, std::size_t shape, const ForceMoment& moment,
+                  bool of_velocity, ElementBounds& bounds);
+
+  ForceContext context_;
+  std::vector<std::unique_ptr<InteractionTables>> interactions_;
+  std::vector<ForceBlock> blocks_;        // one for each table
+  std::vector<VertexRecord> forces_;      // of all matches, by slot
+  std::vector<Job> jobs_, product_jobs_;  // parallel to blocks_
+  std::vector<Task> tasks_;
+  ForceSums sums_;
+  ForceThreads threads_;
+  std::vector<KernelScratch> scratch_;    // by worker
+  std::vector<Failure> failures_;         // by worker
+  std::set<std::pair<std::uint32_t, DartId>> warned_;
+  std::optional<support::Diagnostic> error_;
+};
+
+}  // namespace gmsim::engine
