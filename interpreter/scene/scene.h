@@ -13,6 +13,7 @@
 #include "compile/program.h"
 #include "engine/model.h"
 #include "engine/state.h"
+#include "engine/tear_model.h"
 #include "support/diagnostic.h"
 #include "support/source_map.h"
 
@@ -74,6 +75,9 @@ struct Scene {
   std::uint64_t seed = 1;
   OutputPlan output;
   std::vector<Expectation> expectations;
+  std::vector<engine::TearPairing> tears;        ///< `tear`; a run that cannot tear must refuse them
+  std::vector<engine::StandingRewrite> rewrites; ///< `rewrite`; likewise
+  engine::OnSplit on_split = engine::OnSplit::Both;  ///< of every `fix`
   std::vector<BodySummary> bodies;
   /// The point of every dart's vertex: the mesh's numbering, bodies one after another; by dart.
   std::vector<std::uint32_t> dart_point;

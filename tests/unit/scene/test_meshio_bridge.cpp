@@ -16,11 +16,36 @@ using support::Diagnostics;
 
 namespace {
 
-struct Folder {
+/// A folder for one test, and in it the one for temporary files, so that only its own are counted.
+class Folder {
+ public:
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("gmsim-meshio $x; " + std::to_string(getpid()));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
+
+  Folder() {
+    std::filesystem::create_directories(temporary_);
+    if (const char* before = getenv("TMPDIR")) before_ = before;
+    setenv("TMPDIR", temporary_.c_str(), 1);
+  }
+  ~Folder() {
+    if (before_) setenv("TMPDIR", before_->c_str(), 1);
+    else unsetenv("TMPDIR");
+    std::filesystem::remove_all(path);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  /// Folders that conversions have left behind.
+  [[nodiscard]] std::size_t temporary_folders() const {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(temporary_))
+      if (entry.path().filename().string().starts_with("gmsim-")) ++count;
+    return count;
+  }
+
+ private:
+  std::filesystem::path temporary_ = path / "tmp";
+  std::optional<std::string> before_;
 };
 
 struct Imported {
@@ -39,20 +64,10 @@ Imported import_text(const Folder& folder, const std::string& name, const std::s
   return result;
 }
 
-std::size_t temporary_folders() {
-  std::size_t count = 0;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::temp_directory_path())) {
-    if (entry.path().filename().string().starts_with("gmsim-")) ++count;
-  }
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("formats of other programs come through meshio") {
   const Folder folder;
-  const std::size_t before = temporary_folders();
 
   SUBCASE("VTK with data; the folder name would upset a shell") {
     const auto [mesh, messages] = import_text(
@@ -111,5 +126,5 @@ TEST_CASE("formats of other programs come through meshio") {
     CHECK_FALSE(mesh);
     CHECK(messages.find("[mesh-format]") != std::string::npos);
   }
-  CHECK(temporary_folders() == before);
+  CHECK(folder.temporary_folders() == 0);
 }

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/quantity.h"
+#include "scene/read_context.h"
+#include "support/suggest.h"
+
+namespace gmsim::scene {
+namespace {
+
+using support::DiagnosticKind;
+
+void read_density(const YamlNode& node, ReadContext& context, BodyPlan& body) {
+  static constexpr const char* kUnits[] = {"kg/m", "kg/m^2", "kg/m^3"};
+  const auto density =
+      read_quantity(node, schema_unit(kUnits[context.dimension() - 1]), context.sources, context.diagnostics);
+  body.mass_kind = BodyPlan::Mass::Density;
+  if (density) body.mass = density->value;
+}
+
+void read_mass(const YamlNode& node, ReadContext& context, BodyPlan& body) {
+  if (node.is_scalar()) {
+    body.mass = context.number(node);
+    return;
+  }
+  const YamlNode* density = node.find("density");
+  const YamlNode* per_vertex = node.find("per_vertex");
+  if ((density != nullptr) == (per_vertex != nullptr)) {
+    context.report(density ? DiagnosticKind::Conflict : DiagnosticKind::MissingKey, node.span,
+                   density ? "the mass is given by `density` and by `per_vertex`"
+                           : "this does not say what the mass is",
+                   "give one of `density` and `per_vertex`, or a number for the whole body");
+  } else if (density != nullptr) {
+    read_density(*density, context, body);
+  } else {
+    body.mass_kind = BodyPlan::Mass::PerVertex;
+    body.mass_of_vertex = context.expression(
+        *per_vertex, {.type = {types::ValueKind::Real}, .unit = schema_unit("kg")});
+  }
+}
+
+/// `position`, `velocity` or another embedding that holds data.
+std::optional<types::EmbeddingId> settable(const YamlEntry& entry, ReadContext& context) {
+  const gmap::EmbeddingSchema& schema = context.program.schema;
+  const auto id = schema.find(entry.key);
+  std::vector<std::string> names;
+  for (const gmap::EmbeddingDecl& declaration : schema)
+    if (declaration.role == gmap::EmbeddingRole::Data && declaration.kind != gmap::EmbeddingKind::Derived)
+      names.push_back(declaration.name);
+  if (!id) {
+    names.emplace_back("where");
+    context.report(DiagnosticKind::UnknownEmbedding, entry.key_span,
+                   fmt::format("no embedding named `{}`", entry.key), support::did_you_mean(entry.key, names));
+    return std::nullopt;
+  }
+  if (std::ranges::find(names, entry.key) != names.end()) return id;
+  context.report(DiagnosticKind::BadAssignment, entry.key_span,
+                 fmt::format("`{}` cannot be set: it {}", entry.key,
+                             schema[*id].kind == gmap::EmbeddingKind::Derived ? "is computed from other values"
+                                                                              : "belongs to an interaction"));
+  return std::nullopt;
+}
+
+InitialValues read_initial(const YamlNode& section, ReadContext& context) {
+  InitialValues initial{.where = context.where(section)};
+  for (const YamlEntry& entry : section.entries) {
+    if (entry.key == "where") continue;
+    const auto id = settable(entry, context);
+    if (!id) continue;
+    const gmap::EmbeddingDecl& declaration = context.program.schema[*id];
+    initial.values.emplace_back(
+        *id, context.expression(entry.value, {.type = declaration.type, .unit = declaration.unit,
+                                              .unit_scale = declaration.unit_scale}));
+  }
+  return initial;
+}
+
+/// Names of bodies; those without one are called `body`, or `body1`, `body2` … where there are several.
+void read_names(const std::vector<YamlNode>& bodies, ReadContext& context) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const YamlNode* name = bodies[i].find("name");
+    if (name == nullptr) {
+      context.body_names.push_back(bodies.size() == 1 ? "body" : fmt::format("body{}", i + 1));
+      continue;
+    }
+    if (std::ranges::find(context.body_names, name->text) != context.body_names.end())
+      context.report(DiagnosticKind::DuplicateName, name->span,
+                     fmt::format("two bodies are called `{}`", name->text));
+    context.body_names.push_back(name->text);
+  }
+}
+
+}  // namespace
+
+void read_bodies(const YamlNode& scene, ReadContext& context, ScenePlan& plan) {
+  const YamlNode* bodies = scene.find("bodies");
+  if (bodies == nullptr) return;
+  read_names(bodies->items, context);
+  for (std::size_t i = 0; i < bodies->items.size(); ++i) {
+    const YamlNode& section = bodies->items[i];
+    BodyPlan body{.name = context.body_names[i], .span = section.span};
+    if (const YamlEntry* mesh = section.find_entry("mesh")) body.span = mesh->key_span;
+    if (auto mesh = read_mesh(section, context)) body.mesh = std::move(*mesh);
+    if (const YamlNode* mass = section.find("mass")) read_mass(*mass, context, body);
+    body.prepare = read_preparations(section, context);
+    for (const YamlNode& initial : section.find("initial")->items)
+      body.initial.push_back(read_initial(initial, context));
+    plan.bodies.push_back(std::move(body));
+  }
+}
+
+}  // namespace gmsim::scene
