@@ -70,10 +70,17 @@ class ForceField {
   [[nodiscard]] virtual std::string explain() const = 0;
 };
 
+struct ForceOptions {
+  /// Add up matches between the same two vertices (parallel springs) where their forces are linear
+  /// in what differs. Changes rounding, so it has to depend on rules and criteria alone.
+  bool merge = true;
+};
+
 /// Batched kernels over cached match tables (the engine that runs), on `threads` threads.
 [[nodiscard]] std::unique_ptr<ForceField> make_kernel_forces(const State& state,
                                                              const Model& model, unsigned threads,
-                                                             support::Diagnostics& diagnostics);
+                                                             support::Diagnostics& diagnostics,
+                                                             ForceOptions options = {});
 /// One match at a time from the specialised graphs, without blocks, tables or merging: the oracle.
 [[nodiscard]] std::unique_ptr<ForceField> make_tree_forces(const State& state, const Model& model,
                                                            support::Diagnostics& diagnostics);

@@ -44,29 +44,30 @@ std::vector<bool> depends_on(const ir::Graph& graph, const std::vector<InputOrig
   return result;
 }
 
-/// The moving inputs of a graph and, for each, an input for its change.
+/// The moving inputs of a program and, for each, an input for its change.
 struct Changes {
   std::vector<NodeId> inputs;
   std::vector<NodeId> seeds;
   std::vector<InputOrigin> origins;  ///< of all inputs, the changes included
 };
 
-Changes add_changes(ir::Graph& graph, const compile::Shape& shape, const ShapeInputs& inputs) {
+Changes add_changes(ForceProgram& program) {
+  // Numbers of a match's own that no draw has: they only have to be inputs of their own.
+  constexpr std::uint32_t kFirst = 0x80000000u;
   Changes changes;
-  changes.origins = inputs.origins();
-  auto next = static_cast<std::uint32_t>(shape.draws.size());
-  const auto end = static_cast<std::uint32_t>(graph.size());
+  changes.origins.resize(program.graph.inputs().size(), InputOrigin{.width = 0});
+  for (const auto& [number, origin] : program.inputs) changes.origins[number] = origin;
+  const auto end = static_cast<std::uint32_t>(program.graph.size());
   for (std::uint32_t i = 0; i < end; ++i) {
-    const ir::Node node = graph[NodeId{i}];
+    const ir::Node node = program.graph[NodeId{i}];
     if (node.op != Op::Input) continue;
-    InputOrigin origin = inputs.origins()[node.aux];
+    InputOrigin origin = changes.origins[node.aux];
     if (origin.kind != Kind::Position && origin.kind != Kind::Velocity) continue;
     origin.kind =
         origin.kind == Kind::Position ? Kind::PositionChange : Kind::VelocityChange;
-    // A number of the match's own that no draw has: it only has to be an input of its own.
-    const ir::Input change{.source = ir::Input::Source::MatchValue, .role = next++};
+    const ir::Input change{.source = ir::Input::Source::MatchValue, .role = kFirst + i};
     changes.inputs.push_back(NodeId{i});
-    changes.seeds.push_back(graph.input(change, ValueKind::Vec3, node.span));
+    changes.seeds.push_back(program.graph.input(change, ValueKind::Vec3, node.span));
     changes.origins.push_back(origin);
   }
   return changes;
@@ -95,14 +96,12 @@ ForceProgram energy_program(const compile::Shape& shape, const ShapeInputs& inpu
   return program;
 }
 
-ForceProgram product_program(const compile::Shape& shape, const ShapeInputs& inputs) {
-  ForceProgram program{.graph = shape.graph, .roots = {}, .inputs = {}};
-  const Changes changes = add_changes(program.graph, shape, inputs);
-  for (const compile::ForceRoot& force : shape.forces) {
-    const NodeId derivative =
-        ir::directional(program.graph, force.total, changes.inputs, changes.seeds);
-    program.roots.push_back(where_it_holds(program.graph, shape, derivative));
-  }
+ForceProgram product_program(const ForceProgram& force) {
+  ForceProgram program{.graph = force.graph, .roots = {}, .inputs = force.inputs};
+  const Changes changes = add_changes(program);
+  program.inputs.clear();
+  for (const NodeId root : force.roots)
+    program.roots.push_back(ir::directional(program.graph, root, changes.inputs, changes.seeds));
   list_inputs(program, changes.origins);
   return program;
 }

@@ -43,9 +43,9 @@ struct ForceProgram {
 [[nodiscard]] ForceProgram force_program(const compile::Shape& shape, const ShapeInputs& inputs);
 /// One root, the energy (J); no root when the shape has none.
 [[nodiscard]] ForceProgram energy_program(const compile::Shape& shape, const ShapeInputs& inputs);
-/// The derivative of each force along a change of all positions and velocities, which are inputs of
-/// the kinds PositionChange and VelocityChange.
-[[nodiscard]] ForceProgram product_program(const compile::Shape& shape, const ShapeInputs& inputs);
+/// The derivative of each root of a force program along a change of all positions and velocities,
+/// which are inputs of the kinds PositionChange and VelocityChange.
+[[nodiscard]] ForceProgram product_program(const ForceProgram& force);
 /// One root, 1 where a force or the energy needs the direction of a vector that has no length, else
 /// 0; no root when that cannot be. Only vectors between positions count: a velocity may be zero.
 [[nodiscard]] ForceProgram direction_program(const compile::Shape& shape,

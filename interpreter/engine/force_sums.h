@@ -22,6 +22,9 @@ struct ForceBlock {
   [[nodiscard]] std::uint32_t slot(std::uint32_t root, std::uint32_t match) const {
     return first + root * capacity + match;
   }
+  [[nodiscard]] std::uint32_t end() const {
+    return slot(static_cast<std::uint32_t>(roles.size()), 0);
+  }
 };
 
 /// For each vertex the slots of the forces on it, in the canonical order: by interaction, by key of

@@ -13,13 +13,21 @@ const ForceKernel* ShapeKernels::made(Lazy& lazy, Make& make) {
   return lazy.kernel.get();
 }
 
-InteractionTables::InteractionTables(const ForceContext& context, std::uint32_t number)
-    : context_(context), number_(number), finder_(context, number) {}
+const ForceKernel& ShapeKernels::product() {
+  if (!product_) product_ = std::make_unique<ForceKernel>(product_program(force_.program()));
+  return *product_;
+}
+
+InteractionTables::InteractionTables(const ForceContext& context, std::uint32_t number, bool merge)
+    : context_(context), number_(number), merge_(merge), finder_(context, number) {}
 
 std::optional<support::Diagnostic> InteractionTables::rebuild() {
   for (const auto& table : tables_) table->clear();
   places_.assign(context_.state.map.dart_end(), {});
-  return finder_.find_all([&](const ForceMatch& match) { add(match); });
+  if (auto error = finder_.find_all([&](const ForceMatch& match) { add(match); })) return error;
+  for (std::size_t shape = 0; shape < tables_.size(); ++shape)
+    if (merged_[shape]) merged_[shape]->rebuild(*tables_[shape], context_.state.store);
+  return std::nullopt;
 }
 
 void InteractionTables::add(const ForceMatch& match) {
@@ -38,6 +46,9 @@ void InteractionTables::add_shape() {
       .targets = static_cast<std::uint32_t>(shape.targets.size()),
       .own = inputs.own_widths()}));
   kernels_.push_back(std::make_unique<ShapeKernels>(shape, inputs));
+  std::optional<MergePlan> plan;
+  if (merge_) plan = plan_merge(shape, kernels_.back()->force().program());
+  merged_.push_back(plan ? std::make_unique<MergedTable>(std::move(*plan)) : nullptr);
 }
 
 std::uint32_t InteractionTables::match_count() const {

@@ -7,6 +7,7 @@
 
 #include "engine/force_kernel.h"
 #include "engine/force_matches.h"
+#include "engine/force_merge.h"
 #include "engine/match_table.h"
 
 namespace gmsim::engine {
@@ -18,9 +19,9 @@ class ShapeKernels {
       : shape_(shape), inputs_(inputs), force_(force_program(shape, inputs)) {}
 
   [[nodiscard]] const ForceKernel& force() const { return force_; }
+  [[nodiscard]] const ForceKernel& product();
   // Without a root (a shape without energy): null.
   [[nodiscard]] const ForceKernel* energy() { return made(energy_, energy_program); }
-  [[nodiscard]] const ForceKernel* product() { return made(product_, product_program); }
   [[nodiscard]] const ForceKernel* direction() { return made(direction_, direction_program); }
 
  private:
@@ -34,13 +35,15 @@ class ShapeKernels {
   const compile::Shape& shape_;
   const ShapeInputs& inputs_;
   ForceKernel force_;
-  Lazy energy_, product_, direction_;
+  std::unique_ptr<ForceKernel> product_;
+  Lazy energy_, direction_;
 };
 
-/// The matches of one interaction at work: a table for each shape.
+/// The matches of one interaction at work: a table for each shape, and where matches merge the
+/// merged form of it.
 class InteractionTables {
  public:
-  InteractionTables(const ForceContext& context, std::uint32_t number);
+  InteractionTables(const ForceContext& context, std::uint32_t number, bool merge);
 
   /// Finds all matches anew.
   std::optional<support::Diagnostic> rebuild();
@@ -56,6 +59,9 @@ class InteractionTables {
   [[nodiscard]] const MatchTable& table(std::size_t shape) const { return *tables_[shape]; }
   [[nodiscard]] ShapeKernels& kernels(std::size_t shape) { return *kernels_[shape]; }
   [[nodiscard]] const ShapeKernels& kernels(std::size_t shape) const { return *kernels_[shape]; }
+  /// Null where matches do not merge.
+  [[nodiscard]] MergedTable* merged(std::size_t shape) { return merged_[shape].get(); }
+  [[nodiscard]] const MergedTable* merged(std::size_t shape) const { return merged_[shape].get(); }
   [[nodiscard]] const compile::Shape& shape(std::size_t number) const {
     return finder_.shapes()[number];
   }
@@ -78,9 +84,11 @@ class InteractionTables {
 
   const ForceContext& context_;
   std::uint32_t number_;
+  bool merge_;
   ForceMatches finder_;
   std::vector<std::unique_ptr<MatchTable>> tables_;      // by shape
   std::vector<std::unique_ptr<ShapeKernels>> kernels_;
+  std::vector<std::unique_ptr<MergedTable>> merged_;
   std::vector<Place> places_;                            // by key
 };
 

@@ -15,13 +15,14 @@ constexpr Row kVerticesPerTask = 2048;
 
 }  // namespace
 
-KernelForces::KernelForces(const State& state, const Model& model, unsigned threads)
+KernelForces::KernelForces(const State& state, const Model& model, unsigned threads,
+                           ForceOptions options)
     : context_(state, model.interactions),
       threads_(std::max(1u, threads)),
       scratch_(threads_.count()),
       failures_(threads_.count()) {
   for (std::uint32_t i = 0; i < context_.active.size(); ++i)
-    interactions_.push_back(std::make_unique<InteractionTables>(context_, i));
+    interactions_.push_back(std::make_unique<InteractionTables>(context_, i, options.merge));
 }
 
 bool KernelForces::rebuild() {
@@ -39,25 +40,26 @@ void KernelForces::lay_out() {
   jobs_.clear();
   product_jobs_.clear();
   tasks_.clear();
-  std::uint32_t slots = 0;
-  for (const auto& of : interactions_) {
-    for (std::uint32_t shape = 0; shape < of->shape_count(); ++shape) {
-      const MatchTable& table = of->table(shape);
-      ForceBlock block{.table = &table, .roles = {}, .interaction = of->number(), .first = slots,
-                       .capacity = table.size()};
-      for (const compile::ForceRoot& root : of->shape(shape).forces)
-        block.roles.push_back(root.role);
-      slots += block.capacity * static_cast<std::uint32_t>(block.roles.size());
-      jobs_.push_back({.of = of.get(), .shape = shape, .table = &table,
-                       .kernel = &of->kernels(shape).force(), .block = blocks_.size(),
-                       .inputs = {}, .outputs = {}});
-      blocks_.push_back(std::move(block));
-      add_tasks(static_cast<std::uint32_t>(jobs_.size()) - 1);
-    }
-  }
-  forces_.resize(slots);
+  for (const auto& of : interactions_)
+    for (std::uint32_t shape = 0; shape < of->shape_count(); ++shape) add_block(*of, shape);
+  forces_.resize(blocks_.empty() ? 0 : blocks_.back().end());
   for (Job& job : jobs_) bind_outputs(job);
   sums_.rebuild(blocks_, context_.vertices().row_end());
+}
+
+void KernelForces::add_block(InteractionTables& of, std::uint32_t shape) {
+  const MergedTable* merged = of.merged(shape);
+  const MatchTable& table = merged != nullptr ? merged->table() : of.table(shape);
+  ForceBlock block{.table = &table, .roles = {}, .interaction = of.number(),
+                   .first = blocks_.empty() ? 0 : blocks_.back().end(), .capacity = table.size()};
+  for (std::uint32_t root = 0; root < of.shape(shape).forces.size(); ++root)
+    block.roles.push_back(merged != nullptr ? root : of.shape(shape).forces[root].role);
+  jobs_.push_back({.of = &of, .shape = shape, .table = &table,
+                   .kernel = merged != nullptr ? &merged->kernel() : &of.kernels(shape).force(),
+                   .merged = merged != nullptr, .block = blocks_.size(), .inputs = {},
+                   .outputs = {}});
+  blocks_.push_back(std::move(block));
+  add_tasks(static_cast<std::uint32_t>(jobs_.size()) - 1);
 }
 
 void KernelForces::add_tasks(std::uint32_t job) {
@@ -89,7 +91,9 @@ bool KernelForces::product(const Motion& motion, double time, std::span<const Ve
                            std::span<const VertexRecord> dv, std::span<VertexRecord> out) {
   if (product_jobs_.size() != jobs_.size()) {
     product_jobs_ = jobs_;
-    for (Job& job : product_jobs_) job.kernel = job.of->kernels(job.shape).product();
+    for (Job& job : product_jobs_)
+      job.kernel = job.merged ? &job.of->merged(job.shape)->product()
+                              : &job.of->kernels(job.shape).product();
   }
   ForceMoment now = moment(motion, time, context_.state.dt);
   now.position_change = dx;
@@ -122,8 +126,17 @@ bool KernelForces::run_tables(std::vector<Job>& jobs, const ForceMoment& moment,
       failures_.begin(), failures_.end(),
       [](const Failure& a, const Failure& b) { return a.task < b.task; });
   if (first.task == Failure{}.task) return true;
-  const Job& job = jobs[tasks_[first.task].job];
-  return fail(*job.of, job.shape, first.match, job.kernel->program(), moment);
+  return fail(jobs[tasks_[first.task].job], first.match, moment);
+}
+
+bool KernelForces::fail(const Job& job, std::uint32_t row, const ForceMoment& moment) {
+  if (!job.merged) return fail(*job.of, job.shape, row, job.kernel->program(), moment);
+  // Said of the first of the merged matches, with the program for single ones.
+  const InteractionTables::Place place = job.of->place(job.table->key(row));
+  const bool forces = moment.position_change.empty();
+  ShapeKernels& kernels = job.of->kernels(job.shape);
+  return fail(*job.of, job.shape, place.row,
+              forces ? kernels.force().program() : kernels.product().program(), moment);
 }
 
 void KernelForces::sum(std::span<VertexRecord> out, bool alone) {
@@ -207,8 +220,9 @@ bool KernelForces::reads_time() const {
 
 std::unique_ptr<ForceField> make_kernel_forces(const State& state, const Model& model,
                                                unsigned threads,
-                                               support::Diagnostics& diagnostics) {
-  auto forces = std::make_unique<KernelForces>(state, model, threads);
+                                               support::Diagnostics& diagnostics,
+                                               ForceOptions options) {
+  auto forces = std::make_unique<KernelForces>(state, model, threads, options);
   forces->refresh({});
   if (!forces->error()) return forces;
   diagnostics.report(*forces->error());

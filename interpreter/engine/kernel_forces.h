@@ -19,7 +19,7 @@ namespace gmsim::engine {
 /// sums vertex by vertex. Both are shared out among threads.
 class KernelForces final : public ForceField {
  public:
-  KernelForces(const State& state, const Model& model, unsigned threads);
+  KernelForces(const State& state, const Model& model, unsigned threads, ForceOptions options);
 
   bool evaluate(const Motion& motion, double time, double dt,
                 std::span<VertexRecord> force) override;
@@ -41,8 +41,9 @@ class KernelForces final : public ForceField {
   struct Job {
     InteractionTables* of = nullptr;
     std::uint32_t shape = 0;
-    const MatchTable* table = nullptr;
+    const MatchTable* table = nullptr;  ///< of single matches or merged
     const ForceKernel* kernel = nullptr;
+    bool merged = false;
     std::size_t block = 0;  ///< index into blocks_
     std::vector<InputBinding> inputs;
     std::vector<OutputBinding> outputs;
@@ -62,6 +63,7 @@ class KernelForces final : public ForceField {
   bool rebuild();
   /// Blocks, jobs, tasks and sums for the tables as they are.
   void lay_out();
+  void add_block(InteractionTables& of, std::uint32_t shape);
   void add_tasks(std::uint32_t job);
   void bind_outputs(Job& job);
   /// Runs jobs over their tables, then sums into `out`.
@@ -71,6 +73,7 @@ class KernelForces final : public ForceField {
   /// Numbers that a kernel with one root leaves for each match of a shape, `values` long enough.
   bool run_numbers(InteractionTables& of, std::size_t shape, const ForceKernel& kernel,
                    const ForceMoment& moment, std::vector<double>& values);
+  bool fail(const Job& job, std::uint32_t row, const ForceMoment& moment);
   bool fail(InteractionTables& of, std::uint32_t shape, std::uint32_t row,
             const ForceProgram& program, const ForceMoment& moment);
   /// Adds the matrices of all matches of a shape.

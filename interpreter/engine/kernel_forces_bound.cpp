@@ -36,7 +36,7 @@ bool KernelForces::add_bounds(InteractionTables& of, std::size_t shape, const Fo
                               bool of_velocity, ElementBounds& bounds) {
   const MatchTable& table = of.table(shape);
   const auto& roots = of.shape(shape).forces;
-  const ForceKernel& kernel = *of.kernels(shape).product();
+  const ForceKernel& kernel = of.kernels(shape).product();
   const std::size_t n = 3 * roots.size();
   std::vector<InputBinding> inputs;
   kernel.bind(table, context_.state.store, moment, inputs);

@@ -6,10 +6,79 @@
 
 namespace gmsim::engine {
 
+namespace {
+
+std::string parameter_text(const compile::BodyParameter& parameter,
+                           const ParameterBinding& binding) {
+  switch (binding.kind) {
+    case ParameterBinding::Kind::Uniform:
+      return fmt::format("{} = {} (constant)", parameter.name, types::to_string(binding.uniform));
+    case ParameterBinding::Kind::Stored:
+      return fmt::format("{}: a column on {}", parameter.name, types::to_string(parameter.type));
+    case ParameterBinding::Kind::OfTime:
+      return fmt::format("{}: computed at every stage", parameter.name);
+  }
+  return {};
+}
+
+/// The embeddings that a program gathers, each once.
+std::string gathered_text(const ForceProgram& program, const gmap::EmbeddingSchema& schema) {
+  std::set<std::string> names;
+  for (const auto& [number, origin] : program.inputs) {
+    switch (origin.kind) {
+      case InputOrigin::Kind::Position: names.insert("position"); break;
+      case InputOrigin::Kind::Velocity: names.insert("velocity"); break;
+      case InputOrigin::Kind::Column: names.insert(schema[origin.embedding].name); break;
+      case InputOrigin::Kind::Time: names.insert("time"); break;
+      case InputOrigin::Kind::Dt: names.insert("dt"); break;
+      case InputOrigin::Kind::Step: names.insert("step"); break;
+      default: break;
+    }
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string merged_text(const MergedTable& merged, const gmap::EmbeddingSchema& schema) {
+  std::string summed;
+  for (const auto& [origin, is_summed] : merged.plan().columns)
+    if (is_summed && origin.kind == InputOrigin::Kind::Column)
+      summed += (summed.empty() ? "" : ", ") + schema[origin.embedding].name;
+  return fmt::format(", merged to {} ({})", merged.table().size(),
+                     merged.plan().counted ? "equal ones counted" : "adding up " + summed);
+}
+
+}  // namespace
+
 std::string KernelForces::explain() const {
-  std::string text;
-  for (const auto& of : interactions_)
-    text += fmt::format("{}: {} matches\n", of->body().name, of->match_count());
+  const gmap::EmbeddingSchema& schema = context_.state.program.schema;
+  std::string text = "forces\n";
+  for (const auto& of : interactions_) {
+    text += fmt::format("  {} on {}{}\n", of->body().name, types::to_string(of->body().orbit),
+                        of->match_count() == 0 ? ": holds nowhere, not computed" : "");
+    if (of->match_count() == 0) continue;
+    const auto& bindings = context_.active[of->number()].parameters;
+    for (std::size_t k = 0; k < bindings.size(); ++k)
+      text += fmt::format("    {}\n", parameter_text(of->body().parameters[k], bindings[k]));
+  }
+  text += "tables\n";
+  for (const Job& job : jobs_) {
+    const InteractionTables& of = *job.of;
+    const MatchTable& table = of.table(job.shape);
+    if (table.size() == 0) continue;
+    const compile::Kernel& kernel = job.kernel->kernel();
+    text += fmt::format("  {}: {} matches{}\n", of.body().name, table.size(),
+                        job.merged ? merged_text(*of.merged(job.shape), schema) : "");
+    text += fmt::format("    reads {}\n", gathered_text(of.kernels(job.shape).force().program(), schema));
+    text += fmt::format("    {} operations and {} bytes a match, {} instructions, {} forces\n",
+                        kernel.operations(), kernel.bytes(), kernel.code.size(),
+                        kernel.outputs.size());
+  }
+  text += fmt::format("machine\n  {} threads, instruction set {}\n", threads_.count(),
+                      name_of(preferred_isa()));
+  for (const Job& job : jobs_)
+    if (job.table->size() > 0)
+      text += fmt::format("  {}: blocks of {} matches\n", job.of->body().name,
+                          job.kernel->kernel().block);
   return text;
 }
 

@@ -22,7 +22,7 @@ using Entries = IrEvaluator<double>::Entries;
 TreeInteraction::Programs::Programs(const compile::Shape& shape, const ShapeInputs& inputs)
     : force(force_program(shape, inputs)),
       energy(energy_program(shape, inputs)),
-      product(product_program(shape, inputs)),
+      product(product_program(force.program)),
       direction(direction_program(shape, inputs)) {}
 
 TreeInteraction::TreeInteraction(const ForceContext& context, std::uint32_t number)

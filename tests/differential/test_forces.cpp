@@ -32,9 +32,10 @@ std::unique_ptr<engine::ForceField> tree_forces(ForceWorld& world, const engine:
 }
 
 std::unique_ptr<engine::ForceField> kernel_forces(ForceWorld& world, const engine::Model& model,
-                                                  unsigned threads = 1) {
+                                                  unsigned threads = 1, bool merge = false) {
   support::Diagnostics diagnostics;
-  auto forces = engine::make_kernel_forces(world.state(), model, threads, diagnostics);
+  auto forces = engine::make_kernel_forces(world.state(), model, threads, diagnostics,
+                                           {.merge = merge});
   REQUIRE_MESSAGE(forces, diagnostics.all().front().message);
   return forces;
 }
@@ -381,4 +382,32 @@ TEST_CASE("kernels report what the oracle reports") {
   CHECK_FALSE(kernels->evaluate(motion, 0, 1e-3, force));
   CHECK(kernels->error()->message == tree->error()->message);
   CHECK(kernels->error()->notes == tree->error()->notes);
+}
+
+// ---- merging ------------------------------------------------------------------------------------
+
+TEST_CASE("merged matches give the forces of single ones but for rounding") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t seed) {
+    for (const bool uniform : {false, true}) {
+      const engine::Model model = model_of(world.program(), uniform, any);
+      const auto single = kernel_forces(world, model), merged = kernel_forces(world, model, 2, true);
+      const engine::Motion motion = world.motion();
+      const Records expected = evaluate(*single, motion), got = evaluate(*merged, motion);
+      CHECK(largest(plus(got, scaled(-1, expected))) <= 1e-14 * largest(expected));
+      const Records dx = random_records(motion.position.size(), seed);
+      Records product(dx.size()), other(dx.size());
+      REQUIRE(single->product(motion, 0, dx, dx, product));
+      REQUIRE(merged->product(motion, 0, dx, dx, other));
+      CHECK(largest(plus(other, scaled(-1, product))) <= 1e-14 * largest(product));
+    }
+  });
+}
+
+TEST_CASE("parallel springs of the cloth merge") {
+  ForceWorld world(gmap::grid(10, 10, 10, 10, gmap::GridCells::Quads), 1);
+  lay_flat(world);
+  const auto forces = kernel_forces(world, cloth_model(world.program()), 1, true);
+  const std::string plan = forces->explain();
+  CAPTURE(plan);
+  CHECK(plan.find("400 matches, merged to 220") != std::string::npos);
 }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Forces after changes of the map: kept up to date here and there they equal forces made anew.
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+#include "engine/rewrite.h"
+#include "force_world.h"
+#include "gmap/mesh_builders.h"
+
+using namespace gmsim;
+using namespace gmsim::tests;
+
+namespace {
+
+bool any(const compile::InteractionBody&) { return true; }
+
+std::unique_ptr<engine::ForceField> kernel_forces(ForceWorld& world, const engine::Model& model) {
+  support::Diagnostics diagnostics;
+  auto forces = engine::make_kernel_forces(world.state(), model, 1, diagnostics);
+  REQUIRE_MESSAGE(forces, diagnostics.all().front().message);
+  return forces;
+}
+
+void compare(engine::ForceField& kept, engine::ForceField& anew, ForceWorld& world) {
+  const engine::Motion motion = world.motion();
+  Records a(motion.position.size()), b(motion.position.size());
+  REQUIRE(kept.evaluate(motion, 0, 1e-3, a));
+  REQUIRE(anew.evaluate(motion, 0, 1e-3, b));
+  REQUIRE(std::memcmp(a.data(), b.data(), a.size() * sizeof(VertexRecord)) == 0);
+  double energy = 0, other = 0;
+  REQUIRE(kept.potential_energy(motion, 0, energy));
+  REQUIRE(anew.potential_energy(motion, 0, other));
+  REQUIRE(energy == other);
+}
+
+/// Cuts random facets, refreshing after each cut.
+void tear(ForceWorld& world, const engine::Model& model, std::uint32_t seed, int cuts) {
+  const auto kept = kernel_forces(world, model);
+  const compile::Rule* rule = world.program().find_rule("separate_elements");
+  REQUIRE(rule != nullptr);
+  engine::Rewriter rewriter(world.state());
+  std::mt19937 random(seed);
+  const int top = world.program().dimension;
+  for (int cut = 0; cut < cuts; ++cut) {
+    CAPTURE(cut);
+    const types::DartId dart{static_cast<std::uint32_t>(random() % world.state().map.dart_end())};
+    if (!world.state().map.alive(dart) || world.state().map.alpha(top, dart) == dart) continue;
+    const engine::RewriteOutcome outcome = rewriter.apply(*rule, {&dart, 1});
+    REQUIRE(outcome.applied());
+    kept->refresh(outcome.effects.touched);
+    REQUIRE_MESSAGE(!kept->error(), kept->error()->message);
+    compare(*kept, *kernel_forces(world, model), world);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("after each cut the forces equal those made anew, bit by bit") {
+  std::uint32_t seed = 0;
+  for (const gmap::Mesh& mesh : {gmap::grid(4, 4, 4, 4, gmap::GridCells::Mix2),
+                                 gmap::grid(3, 3, 3, 3, gmap::GridCells::Tri4),
+                                 gmap::box({2, 2, 2}, {2, 2, 2}, gmap::BoxElements::Hexes),
+                                 gmap::box({2, 1, 1}, {2, 1, 1}, gmap::BoxElements::Tets5)}) {
+    for (const bool uniform : {false, true}) {
+      CAPTURE(seed);
+      ForceWorld world(mesh, ++seed);
+      tear(world, model_of(world.program(), uniform, any), seed, 25);
+    }
+  }
+}
