@@ -2,7 +2,9 @@
 #include "compile/rewrite_plan.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <optional>
 
 #include "compile/compile.h"
 
@@ -17,7 +19,45 @@ bool RewritePlan::affects(OrbitType type) const {
   return creates() || removes() || type.meets(changed_links);
 }
 
+const OrbitClasses* RewritePlan::find_orbits(OrbitType type) const {
+  const auto found = std::find_if(orbits.begin(), orbits.end(),
+                                  [&](const OrbitClasses& entry) { return entry.type == type; });
+  return found == orbits.end() ? nullptr : &*found;
+}
+
 namespace {
+
+/// The nodes that links of the orbit type join to `node` within a row.
+std::vector<bool> orbit_class(const check::Pattern& pattern, check::NodeIndex node,
+                              OrbitType orbit) {
+  std::vector<bool> member(pattern.nodes.size(), false);
+  member[node] = true;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const check::PatternArc& arc : pattern.arcs) {
+      if (!orbit.contains(arc.dimension) || member[arc.a] == member[arc.b]) continue;
+      member[arc.a] = member[arc.b] = grown = true;
+    }
+  }
+  return member;
+}
+
+/// The label positions that stay inside of the orbits of a class: they join its rows.
+std::vector<std::uint32_t> joined_positions(const check::Pattern& pattern,
+                                            const std::vector<bool>& member, OrbitType orbit) {
+  std::vector<std::uint32_t> joined;
+  const auto node = static_cast<std::size_t>(std::find(member.begin(), member.end(), true) -
+                                             member.begin());
+  for (std::uint32_t p = 0; p < pattern.nodes[node].label.size(); ++p) {
+    for (std::size_t other = 0; other < member.size(); ++other) {
+      const std::int8_t entry = pattern.nodes[other].label[p];
+      if (!member[other] || entry == check::kBlank || !orbit.contains(entry)) continue;
+      joined.push_back(p);
+      break;
+    }
+  }
+  return joined;
+}
 
 bool has_arc(const check::Pattern& pattern, int dimension, check::NodeIndex a, check::NodeIndex b) {
   return std::any_of(pattern.arcs.begin(), pattern.arcs.end(), [&](const check::PatternArc& arc) {
@@ -38,6 +78,7 @@ class RewriteCompiler {
       write_labels();
       write_arcs();
       list_changes();
+      list_orbits();
     }
     for (const check::Assignment& assignment : rule_.assignments) add_assignment(assignment);
     if (plan_.creates()) list_unassigned();
@@ -100,33 +141,86 @@ class RewriteCompiler {
     }
   }
 
-  /// The right nodes that links of the orbit type join to `node`.
-  std::vector<bool> orbit_class(check::NodeIndex node, OrbitType orbit) const {
-    std::vector<bool> member(rule_.right.nodes.size(), false);
-    member[node] = true;
-    for (bool grown = true; grown;) {
-      grown = false;
-      for (const check::PatternArc& arc : rule_.right.arcs) {
-        if (!orbit.contains(arc.dimension) || member[arc.a] == member[arc.b]) continue;
-        member[arc.a] = member[arc.b] = grown = true;
-      }
+  void list_orbits() {
+    for (std::size_t i = 0; i < schema_.size(); ++i) {
+      const OrbitType type = schema_[static_cast<EmbeddingId>(i)].orbit;
+      if (plan_.find_orbits(type) == nullptr) plan_.orbits.push_back({type, classes_of(type)});
     }
-    return member;
+  }
+
+  std::vector<OrbitClass> classes_of(OrbitType type) const {
+    std::vector<OrbitClass> classes;
+    std::vector<bool> seen(rule_.right.nodes.size(), false);
+    for (check::NodeIndex node = 0; node < seen.size(); ++node) {
+      if (seen[node]) continue;
+      const std::vector<bool> member = orbit_class(rule_.right, node, type);
+      std::transform(seen.begin(), seen.end(), member.begin(), seen.begin(), std::logical_or<>());
+      if (auto found = class_of(member, type)) classes.push_back(std::move(*found));
+    }
+    OrbitClass removed;
+    for (const ColumnChange& change : plan_.changes) {
+      if (change.fate == NodeFate::Removed) removed.columns.push_back(change.column);
+    }
+    if (!removed.columns.empty()) classes.push_back(std::move(removed));
+    return classes;
+  }
+
+  /// Nothing when no dart of the class is touched.
+  std::optional<OrbitClass> class_of(const std::vector<bool>& member, OrbitType type) const {
+    std::vector<Column> all, created, touched;
+    std::optional<Column> preserved;
+    for (std::size_t node = 0; node < member.size(); ++node) {
+      if (!member[node]) continue;
+      const Column column = columns_[node];
+      const bool is_new = column >= plan_.kept_columns;
+      all.push_back(column);
+      if (is_new) created.push_back(column);
+      if (is_new || type.meets(links_[column])) touched.push_back(column);
+      if (!is_new && !preserved) preserved = column;
+    }
+    if (touched.empty()) return std::nullopt;
+    std::vector<std::uint32_t> joined = joined_positions(rule_.right, member, type);
+    if (preserved && keeps_orbits(member, *preserved, joined, type)) {
+      return OrbitClass{OrbitClass::Fate::Kept, std::move(created), *preserved};
+    }
+    if (!is_whole(member, type)) return OrbitClass{OrbitClass::Fate::Open, std::move(touched), 0};
+    return OrbitClass{OrbitClass::Fate::Whole, std::move(all), 0, std::move(joined)};
+  }
+
+  /// Does the right side name all links of the type at all nodes of the class?
+  [[nodiscard]] bool is_whole(const std::vector<bool>& member, OrbitType type) const {
+    for (check::NodeIndex node = 0; node < member.size(); ++node) {
+      if (!member[node]) continue;
+      OrbitType links;
+      for (const std::int8_t entry : rule_.right.nodes[node].label) {
+        if (entry != check::kBlank) links.insert(entry);
+      }
+      for (const check::PatternArc& arc : rule_.right.arcs) {
+        if (arc.a == node || arc.b == node) links.insert(arc.dimension);
+      }
+      if (!links.contains(type)) return false;
+    }
+    return true;
+  }
+
+  /// Are the same kept darts joined before and after? Within the match those of one class in the
+  /// rows of one group are, on either side; links to other darts stay.
+  [[nodiscard]] bool keeps_orbits(const std::vector<bool>& right, Column preserved,
+                                  const std::vector<std::uint32_t>& joined,
+                                  OrbitType type) const {
+    const std::vector<bool> left = orbit_class(rule_.left, preserved, type);
+    for (check::NodeIndex node = 0; node < left.size(); ++node) {
+      const auto image = rule_.left_to_right[node];
+      if (left[node] && !image) return false;
+      if (image && right[*image] != left[node]) return false;
+    }
+    return joined_positions(rule_.left, left, type) == joined;
   }
 
   void add_assignment(const check::Assignment& assignment) {
     const OrbitType orbit = schema_[assignment.embedding].orbit;
-    const std::vector<bool> member = orbit_class(assignment.node, orbit);
-    const auto& nodes = rule_.right.nodes;
-    std::vector<std::uint32_t> joined;
-    for (std::uint32_t p = 0; p < nodes[assignment.node].label.size(); ++p) {
-      bool active = false;
-      for (check::NodeIndex node = 0; node < nodes.size(); ++node) {
-        const std::int8_t entry = nodes[node].label[p];
-        active = active || (member[node] && entry != check::kBlank && orbit.contains(entry));
-      }
-      if (active) joined.push_back(p);
-    }
+    std::vector<std::uint32_t> joined = joined_positions(
+        rule_.right, orbit_class(rule_.right, assignment.node, orbit), orbit);
     plan_.assignments.push_back({columns_[assignment.node], assignment.embedding, assignment.value,
                                  std::move(joined), assignment.target_span, assignment.span});
   }
@@ -137,7 +231,7 @@ class RewriteCompiler {
     std::vector<bool> seen(rule_.right.nodes.size(), false);
     for (check::NodeIndex node = 0; node < seen.size(); ++node) {
       if (seen[node]) continue;
-      std::vector<bool> member = orbit_class(node, orbit);
+      std::vector<bool> member = orbit_class(rule_.right, node, orbit);
       bool created = true;
       for (check::NodeIndex other = 0; other < member.size(); ++other) {
         if (!member[other]) continue;

@@ -42,6 +42,26 @@ struct Assignment {
   Span span;
 };
 
+/// What becomes of the orbits of one type that meet one class of nodes: those that links of the
+/// type join within a row of the right side. Label positions in `joined` join rows.
+struct OrbitClass {
+  enum class Fate : std::uint8_t {
+    Kept,   ///< no orbit is cut or joined; created darts enter the orbits of a preserved node
+    Whole,  ///< the orbits are in the match: the class in one group of joined rows is one orbit
+    Open    ///< the orbits of the touched darts may be any, and go beyond the match
+  };
+  Fate fate = Fate::Open;
+  std::vector<Column> columns;  ///< Kept: created; Whole: all of the class; Open: touched
+  Column kept = 0;              ///< Kept: the preserved node
+  std::vector<std::uint32_t> joined = {};
+};
+
+/// The classes of one orbit type of which the rule touches a dart.
+struct OrbitClasses {
+  OrbitType type;
+  std::vector<OrbitClass> classes;
+};
+
 struct RewritePlan {
   std::uint32_t kept_columns = 0;     ///< columns of the left side; created ones follow
   std::uint32_t created_columns = 0;
@@ -53,11 +73,14 @@ struct RewritePlan {
   OrbitType made_links;               ///< dimensions of links made between different darts
   /// Embeddings of which the rule creates orbits that no assignment gives a value.
   std::vector<EmbeddingId> unassigned;
+  std::vector<OrbitClasses> orbits;   ///< one entry for each orbit type of the schema
 
   [[nodiscard]] bool creates() const { return created_columns > 0; }
   [[nodiscard]] bool removes() const;
   /// Can an orbit of this type be made, cut, joined or removed?
   [[nodiscard]] bool affects(OrbitType type) const;
+  /// Null when no embedding lives on such orbits.
+  [[nodiscard]] const OrbitClasses* find_orbits(OrbitType type) const;
 };
 
 }  // namespace gmsim::compile

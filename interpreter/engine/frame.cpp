@@ -22,7 +22,7 @@ double* Arena::allocate(std::size_t count) {
 
 void Frame::reset(std::uint32_t slots) {
   cells_.assign(slots, Cell{});
-  collections_.clear();
+  if (!collections_.empty()) collections_.clear();
   arena_.release({});
 }
 

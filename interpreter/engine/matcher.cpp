@@ -127,10 +127,10 @@ bool judge_predicate(const Predicate& predicate, std::uint32_t index, TreeEvalua
 
 void Matcher::lead(const Plan& plan, const Match& match, std::uint32_t row,
                    std::uint32_t position) {
-  images_.clear();
-  for (Column hook : plan.hooks) {
-    images_.push_back(
-        state_.map.alpha(plan.nodes[hook].label[position], match.dart(row, hook)));
+  images_.resize(plan.hooks.size());
+  for (std::size_t k = 0; k < images_.size(); ++k) {
+    const Column hook = plan.hooks[k];
+    images_[k] = state_.map.alpha(plan.nodes[hook].label[position], match.dart(row, hook));
   }
 }
 

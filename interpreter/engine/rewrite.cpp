@@ -187,9 +187,12 @@ void Rewriter::Implementation::apply(const compile::Rule& rule, std::span<const 
   if (alone && may_fail(rule)) begin();
   changed_.clear();
   effects_.clear();
-  rewrite_links(rule.rewrite);
-  Diagnostic error = store_values(rule);
-  if (!error && options_.validate) error = validate();
+  change_links(rule.rewrite);
+  // Orbits of what is no map cannot be walked.
+  Diagnostic error = options_.validate ? report_broken(gmap::validate(state.map)) : std::nullopt;
+  if (!error) repair_orbits(rule.rewrite);
+  if (!error) error = store_values(rule);
+  if (!error && options_.validate) error = report_broken(gmap::validate(state.map, state.store));
   if (error) {
     GMSIM_CHECK(recording_, "a rule failed that cannot: " + error->message);
     // Within begin() … commit() the caller undoes everything.
@@ -235,8 +238,8 @@ std::optional<support::Diagnostic> Rewriter::Implementation::announce_created() 
   return std::nullopt;
 }
 
-std::optional<support::Diagnostic> Rewriter::Implementation::validate() const {
-  const std::vector<std::string> broken = gmap::validate(state.map, state.store);
+std::optional<support::Diagnostic> Rewriter::Implementation::report_broken(
+    const std::vector<std::string>& broken) {
   if (broken.empty()) return std::nullopt;
   support::Diagnostic diagnostic{support::DiagnosticKind::InvalidMap,
                                  "the map is not valid after a rewrite"};

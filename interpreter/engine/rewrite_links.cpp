@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rewriter: darts and links of a rule's right side, and the orbits that they change.
+// Rewriter: darts and links of a rule's right side.
 #include "engine/rewriter_implementation.h"
 
 namespace gmsim::engine {
@@ -7,7 +7,7 @@ namespace gmsim::engine {
 using compile::ColumnChange;
 using compile::NodeFate;
 
-void Rewriter::Implementation::rewrite_links(const compile::RewritePlan& plan) {
+void Rewriter::Implementation::change_links(const compile::RewritePlan& plan) {
   if (plan.changes.empty()) return;
   add_darts(plan);
   write_links(plan);
@@ -17,7 +17,6 @@ void Rewriter::Implementation::rewrite_links(const compile::RewritePlan& plan) {
     }
   }
   remove_darts(plan);
-  repair_orbits(plan);
 }
 
 /// Created darts are numbered row by row.
@@ -60,24 +59,6 @@ void Rewriter::Implementation::remove_darts(const compile::RewritePlan& plan) {
   if (touched_.empty()) return;
   state.map.remove_darts(touched_);
   effects_.removed_darts += touched_.size();
-}
-
-void Rewriter::Implementation::repair_orbits(const compile::RewritePlan& plan) {
-  for (const auto& entry : state.store.indices()) {
-    gmap::OrbitIndex& index = *entry;
-    touched_.clear();
-    for (const ColumnChange& change : plan.changes) {
-      if (change.fate == NodeFate::Preserved && !index.type().meets(change.links)) continue;
-      for (std::uint32_t row = 0; row < match_.rows; ++row) {
-        touched_.push_back(match_.dart(row, change.column));
-      }
-    }
-    if (touched_.empty()) continue;
-    changed_.push_back({&index, nullptr});
-    index.repair(state.map, touched_, effects_.repair(index.type()), journal());
-  }
-  // Only now, because a new entry moves the others.
-  for (ChangedOrbits& changed : changed_) changed.repair = effects_.find(changed.index->type());
 }
 
 }  // namespace gmsim::engine

@@ -10,9 +10,10 @@
 namespace gmsim::engine {
 
 bool Rewriter::Implementation::evaluate(const compile::Rule& rule, RewriteOutcome& outcome) {
+  const TreeEvaluator::Keeping keeping(matcher.evaluator());
   for (const compile::Assignment& assignment : rule.rewrite.assignments) {
     if (!state.store.in_use(assignment.embedding)) continue;
-    pick_rows(assignment);
+    pick_rows(assignment.joined);
     for (const std::uint32_t row : rows_) {
       if (!evaluate_at(rule, assignment, row, outcome)) return false;
     }
@@ -20,26 +21,29 @@ bool Rewriter::Implementation::evaluate(const compile::Rule& rule, RewriteOutcom
   return true;
 }
 
-/// The rows at which an assignment is evaluated: the first of each group that its joined positions
-/// connect.
-void Rewriter::Implementation::pick_rows(const compile::Assignment& assignment) {
+/// The first row of each group that the joined positions connect.
+void Rewriter::Implementation::pick_rows(const std::vector<std::uint32_t>& joined) {
   rows_.assign(1, 0);
-  if (match_.rows == 1 || assignment.joined.size() == match_.positions) return;
+  if (match_.rows == 1 || joined.size() == match_.positions) return;
   rows_.clear();
   row_seen_.assign(match_.rows, 0);
   for (std::uint32_t row = 0; row < match_.rows; ++row) {
     if (row_seen_[row] != 0) continue;
     rows_.push_back(row);
-    row_seen_[row] = 1;
-    row_queue_.assign(1, row);
-    while (!row_queue_.empty()) {
-      const std::uint32_t from = row_queue_.back();
-      row_queue_.pop_back();
-      for (const std::uint32_t position : assignment.joined) {
-        const std::uint32_t to = match_.next_row(from, position);
-        if (row_seen_[to] == 0) row_queue_.push_back(to);
-        row_seen_[to] = 1;
-      }
+    walk_rows(row, joined);
+  }
+}
+
+/// The rows of the group of `row`, into `row_queue_`; marks them as seen.
+void Rewriter::Implementation::walk_rows(std::uint32_t row,
+                                         const std::vector<std::uint32_t>& joined) {
+  row_seen_[row] = 1;
+  row_queue_.assign(1, row);
+  for (std::size_t next = 0; next < row_queue_.size(); ++next) {
+    for (const std::uint32_t position : joined) {
+      const std::uint32_t to = match_.next_row(row_queue_[next], position);
+      if (row_seen_[to] == 0) row_queue_.push_back(to);
+      row_seen_[to] = 1;
     }
   }
 }

@@ -44,17 +44,26 @@ class Rewriter::Implementation {
   bool evaluate_at(const compile::Rule& rule, const compile::Assignment& assignment,
                    std::uint32_t row, RewriteOutcome& outcome);
   bool bind_row(const compile::MatchPlan& plan, std::uint32_t row, RewriteOutcome& outcome);
-  void pick_rows(const compile::Assignment& assignment);
+  void pick_rows(const std::vector<std::uint32_t>& joined);
+  void walk_rows(std::uint32_t row, const std::vector<std::uint32_t>& joined);
   // topology
-  void rewrite_links(const compile::RewritePlan& plan);
+  void change_links(const compile::RewritePlan& plan);
   void add_darts(const compile::RewritePlan& plan);
   void write_links(const compile::RewritePlan& plan);
   void remove_darts(const compile::RewritePlan& plan);
+  // rewrite_orbits.cpp
   void repair_orbits(const compile::RewritePlan& plan);
+  void list_touched(const compile::RewritePlan& plan, OrbitType type);
+  void follow_classes(const compile::OrbitClasses& classes, gmap::OrbitIndex& index,
+                      gmap::OrbitRepair& repair);
+  void enter_kept(const compile::OrbitClass& orbits, gmap::OrbitIndex& index,
+                  gmap::OrbitRepair& repair);
+  void list_whole(const compile::OrbitClass& orbits);
+  void publish_kept(const gmap::OrbitIndex& index, gmap::OrbitRepair& repair);
   // values on the new map
   Diagnostic store_values(const compile::Rule& rule);
   Diagnostic announce_created();
-  [[nodiscard]] Diagnostic validate() const;
+  [[nodiscard]] static Diagnostic report_broken(const std::vector<std::string>& broken);
   void fail(const compile::Rule& rule, support::Diagnostic diagnostic, RewriteOutcome& outcome);
   void fail_evaluation(const compile::Rule& rule, RewriteOutcome& outcome);
 
@@ -76,6 +85,9 @@ class Rewriter::Implementation {
   std::vector<double> numbers_;
   std::vector<DartId> touched_;
   std::vector<ChangedOrbits> changed_;
+  std::vector<Row> kept_rows_;                // of orbits that created darts entered
+  std::vector<DartId> whole_;                 // darts of whole orbits, one orbit after the other
+  std::vector<std::uint32_t> whole_ends_;
   Effects effects_;
 };
 

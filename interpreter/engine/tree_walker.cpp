@@ -115,6 +115,38 @@ const Expr& TreeWalker::branch(const Expr& choice) {
   return truth(*choice.args[0]) ? *choice.args[1] : *choice.args[2];
 }
 
+// ---- values that are kept ------------------------------------------------------------------------
+
+void TreeWalker::keep_values(bool keep) {
+  keeps_ = keep;
+  if (keep) kept_.clear();
+}
+
+/// A value that belongs to the whole orbit over which it is folded.
+void TreeWalker::shared_fold(const Expr& expr, double* out) {
+  const Expr& collection = *expr.args[0];
+  const std::uint32_t function = static_cast<std::uint32_t>(expr.number);
+  const std::uint32_t count = number_count(expr.type);
+  DartId at;
+  if (!live_dart(*collection.args[0], at)) return void(std::fill_n(out, count, 0.0));
+  if (const double* value = kept_.find(function, at)) return void(std::copy_n(value, count, out));
+  fold(expr, out);
+  if (failed()) return;
+  const std::uint32_t value = kept_.add({out, count});
+  gmap::for_each_dart(state_.map, collection.orbit, at,
+                      [&](DartId d) { kept_.set(function, d, value); });
+}
+
+/// A value that depends on the bound dart alone.
+void TreeWalker::shared_let(const Expr& expr, double* out) {
+  const std::uint32_t function = static_cast<std::uint32_t>(expr.number);
+  const std::uint32_t count = number_count(expr.type);
+  const DartId at = dart(*expr.args[0]);
+  if (const double* value = kept_.find(function, at)) return void(std::copy_n(value, count, out));
+  with_bound(expr, [&] { numbers(*expr.args[1], out); });
+  if (!failed()) kept_.set(function, at, kept_.add({out, count}));
+}
+
 // ---- values -------------------------------------------------------------------------------------
 
 void TreeWalker::derived(EmbeddingId id, DartId dart, double* out) {
@@ -293,6 +325,7 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
       return;
     }
     case ExprKind::Let:
+      if (keeps_ && expr.number != 0) return shared_let(expr, out);
       return with_bound(expr, [&] { numbers(*expr.args[1], out); });
     case ExprKind::Embedding: {
       DartId at;
@@ -305,7 +338,7 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
     case ExprKind::Frozen:
       return numbers(*expr.args[0], out);
     case ExprKind::Fold:
-      return fold(expr, out);
+      return keeps_ && expr.number != 0 ? shared_fold(expr, out) : fold(expr, out);
     case ExprKind::Convert:
       return convert(expr, out);
     case ExprKind::Call:

@@ -10,6 +10,7 @@
 
 #include "engine/dart_pool.h"
 #include "engine/frame.h"
+#include "engine/kept_values.h"
 #include "engine/state.h"
 #include "engine/tree_eval.h"
 
@@ -52,6 +53,9 @@ class TreeWalker {
   void darts(const types::Expr& expr, std::vector<DartId>& out);
   void assign(const types::Expr& expr, Slot slot);
   void read(EmbeddingId id, DartId dart, double* out, const types::Expr* reader);
+
+  /// Keep the values that expressions share, from now on and until false is said.
+  void keep_values(bool keep);
 
   [[nodiscard]] bool failed() const { return failure_.has_value(); }
   [[nodiscard]] EvalFailure take_failure();
@@ -109,6 +113,8 @@ class TreeWalker {
   template <typename Body>
   void each(const Expr& fold, const Body& body);
   void fold(const Expr& expr, double* out);
+  void shared_fold(const Expr& expr, double* out);
+  void shared_let(const Expr& expr, double* out);
   void fold_sum(const Expr& expr, double* out);
   void fold_extreme(const Expr& expr, double* out);
   [[nodiscard]] double fold_truth(const Expr& expr);
@@ -127,6 +133,8 @@ class TreeWalker {
   std::deque<Frame> derived_frames_;
   std::size_t derived_depth_ = 0;
   DartPool pool_;
+  KeptValues kept_;
+  bool keeps_ = false;
   std::optional<EvalFailure> failure_;
 };
 

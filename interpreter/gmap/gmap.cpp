@@ -92,7 +92,10 @@ void GMap::remove_dart(DartId d) {
 }
 
 void GMap::remove_darts(std::span<const DartId> darts) {
-  std::vector<std::array<DartId, types::kMaxDimension + 1>> neighbours(darts.size());
+  using Links = std::array<DartId, types::kMaxDimension + 1>;
+  std::array<Links, 32> few;
+  std::vector<Links> many(darts.size() > few.size() ? darts.size() : 0);
+  Links* const neighbours = many.empty() ? few.data() : many.data();
   for (std::size_t k = 0; k < darts.size(); ++k) {
     for (int i = 0; i <= dimension_; ++i) neighbours[k][i] = alpha(i, darts[k]);
     drop_links(darts[k]);

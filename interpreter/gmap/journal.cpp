@@ -11,7 +11,8 @@ struct Journal::MapLog {
     DartId old;
     std::uint8_t dimension;
   };
-  std::uint32_t dart_end, alive;
+  bool active = false;
+  std::uint32_t dart_end = 0, alive = 0;
   std::vector<Link> links = {};
 };
 
@@ -24,9 +25,10 @@ struct Journal::IndexLog {
     Row row;
     DartId old;
   };
-  OrbitIndex* index;
-  std::size_t dart_end;
-  Row row_end, alive;
+  OrbitIndex* index = nullptr;
+  bool active = false;
+  std::size_t dart_end = 0;
+  Row row_end = 0, alive = 0;
   std::vector<RowOfDart> rows = {};
   std::vector<SmallestOfRow> smallest = {};
 };
@@ -36,8 +38,9 @@ struct Journal::ColumnLog {
     Row row;
     std::uint8_t present;
   };
-  EmbeddingColumn* column;
-  Row row_end;
+  EmbeddingColumn* column = nullptr;
+  bool active = false;
+  Row row_end = 0;
   std::vector<Value> values = {};
   std::vector<double> data = {};  // `stride` for each of `values`
 };
@@ -46,11 +49,16 @@ Journal::Journal() = default;
 Journal::~Journal() = default;
 
 void Journal::begin(const GMap& map) {
-  if (map_.empty()) map_.push_back({map.dart_end(), map.dart_count()});
+  if (map_.empty()) map_.emplace_back();
+  MapLog& log = map_.front();
+  if (log.active) return;
+  log.active = true;
+  log.dart_end = map.dart_end();
+  log.alive = map.dart_count();
 }
 
 bool Journal::is_new(DartId d) const {
-  return !map_.empty() && gmap::index(d) >= map_.front().dart_end;
+  return !map_.empty() && map_.front().active && gmap::index(d) >= map_.front().dart_end;
 }
 
 void Journal::record(const GMap& map, int i, DartId d) {
@@ -63,9 +71,13 @@ void Journal::record(const GMap& map, int i, DartId d) {
 Journal::IndexLog& Journal::log(OrbitIndex& index) {
   auto found = std::find_if(indices_.begin(), indices_.end(),
                             [&](const IndexLog& log) { return log.index == &index; });
-  if (found != indices_.end()) return *found;
-  indices_.push_back({&index, index.rows_.size(), index.row_end(), index.orbit_count()});
-  return indices_.back();
+  if (found == indices_.end()) found = indices_.insert(indices_.end(), IndexLog{&index});
+  if (found->active) return *found;
+  found->active = true;
+  found->dart_end = index.rows_.size();
+  found->row_end = index.row_end();
+  found->alive = index.orbit_count();
+  return *found;
 }
 
 void Journal::begin(OrbitIndex& index) {
@@ -77,17 +89,19 @@ void Journal::record_row(OrbitIndex& index, DartId d, Row old) {
   if (gmap::index(d) < entry.dart_end) entry.rows.push_back({d, old});
 }
 
-void Journal::record_smallest(OrbitIndex& index, Row row) {
+void Journal::record_smallest(OrbitIndex& index, Row row, DartId old) {
   IndexLog& entry = log(index);
-  if (row < entry.row_end) entry.smallest.push_back({row, index.smallest_[row]});
+  if (row < entry.row_end) entry.smallest.push_back({row, old});
 }
 
 Journal::ColumnLog& Journal::log(EmbeddingColumn& column) {
   auto found = std::find_if(columns_.begin(), columns_.end(),
                             [&](const ColumnLog& log) { return log.column == &column; });
-  if (found != columns_.end()) return *found;
-  columns_.push_back({&column, column.row_end()});
-  return columns_.back();
+  if (found == columns_.end()) found = columns_.insert(columns_.end(), ColumnLog{&column});
+  if (found->active) return *found;
+  found->active = true;
+  found->row_end = column.row_end();
+  return *found;
 }
 
 void Journal::begin(EmbeddingColumn& column) {
@@ -104,6 +118,7 @@ void Journal::record(EmbeddingColumn& column, Row row) {
 
 void Journal::roll_back(GMap& map, EmbeddingStore& store) {
   for (const MapLog& log : map_) {
+    if (!log.active) continue;
     for (auto link = log.links.rbegin(); link != log.links.rend(); ++link) {
       map.alpha_[link->dimension][gmap::index(link->dart)] = link->old;
     }
@@ -111,6 +126,7 @@ void Journal::roll_back(GMap& map, EmbeddingStore& store) {
     map.alive_ = log.alive;
   }
   for (const IndexLog& log : indices_) {
+    if (!log.active) continue;
     OrbitIndex& index = *log.index;
     for (auto row = log.rows.rbegin(); row != log.rows.rend(); ++row) {
       index.rows_[gmap::index(row->dart)] = row->old;
@@ -123,6 +139,7 @@ void Journal::roll_back(GMap& map, EmbeddingStore& store) {
     index.alive_ = log.alive;
   }
   for (const ColumnLog& log : columns_) {
+    if (!log.active) continue;
     EmbeddingColumn& column = *log.column;
     for (std::size_t i = log.values.size(); i-- > 0;) {
       const auto [row, present] = log.values[i];
@@ -137,9 +154,20 @@ void Journal::roll_back(GMap& map, EmbeddingStore& store) {
 }
 
 void Journal::commit() {
-  map_.clear();
-  indices_.clear();
-  columns_.clear();
+  for (MapLog& log : map_) {
+    log.active = false;
+    log.links.clear();
+  }
+  for (IndexLog& log : indices_) {
+    log.active = false;
+    log.rows.clear();
+    log.smallest.clear();
+  }
+  for (ColumnLog& log : columns_) {
+    log.active = false;
+    log.values.clear();
+    log.data.clear();
+  }
 }
 
 std::size_t Journal::size() const {

@@ -14,7 +14,7 @@ namespace gmsim::gmap {
 /// nothing. Cost: one record per changed entry, nothing when no journal is set. What is new since
 /// the recording began (darts, rows) needs no record: undoing cuts it off.
 ///
-/// A map records while `GMap::set_journal` is on; indices and columns when the journal is given to
+/// A journal that is used again keeps its memory. A map records while `GMap::set_journal` is on; indices and columns when the journal is given to
 /// the call that changes them. One journal serves one map and its store, which stay where they are
 /// and gain no index or column while it holds records.
 class Journal {
@@ -40,7 +40,7 @@ class Journal {
   void record(const GMap& map, int i, DartId d);
   void begin(OrbitIndex& index);
   void record_row(OrbitIndex& index, DartId d, Row old);
-  void record_smallest(OrbitIndex& index, Row row);
+  void record_smallest(OrbitIndex& index, Row row, DartId old);
   void begin(EmbeddingColumn& column);
   void record(EmbeddingColumn& column, Row row);
 
@@ -51,7 +51,7 @@ class Journal {
   IndexLog& log(OrbitIndex& index);
   ColumnLog& log(EmbeddingColumn& column);
 
-  std::vector<MapLog> map_;  // empty or one
+  std::vector<MapLog> map_;  // none or one
   std::vector<IndexLog> indices_;
   std::vector<ColumnLog> columns_;
 };

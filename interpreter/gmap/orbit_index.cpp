@@ -84,7 +84,7 @@ Row OrbitIndex::merge_rows(const GMap& map, DartId a, DartId b, Journal* journal
 
 /// Walks from d through the darts with row `from`.
 void OrbitIndex::rename(const GMap& map, DartId d, Row from, Row to, Journal* journal) {
-  if (journal != nullptr) journal->record_smallest(*this, from);
+  if (journal != nullptr) journal->record_smallest(*this, from, smallest_[from]);
   const detail::OrbitLinks links(map, type_);
   std::vector<DartId> queue{d};
   add_dart(d, to, journal);

@@ -52,6 +52,12 @@ struct OrbitRepair {
   std::vector<Row> old_rows_, open_, new_rows_;
 };
 
+/// Whole orbits that a caller knows: one after the other in `darts`, each up to one of `ends`.
+struct KnownOrbits {
+  std::span<const DartId> darts;
+  std::span<const std::uint32_t> ends;
+};
+
 /// dart -> orbit row for one orbit type, kept only for the types in use and repaired locally.
 class OrbitIndex {
  public:
@@ -76,7 +82,12 @@ class OrbitIndex {
   /// the order of `touched` only in the order of `removed`. An index whose type has none of the
   /// changed links needs no repair unless darts were created or removed.
   void repair(const GMap& map, std::span<const DartId> touched, OrbitRepair& repair,
-              Journal* journal = nullptr);
+              Journal* journal = nullptr) {
+    this->repair(map, touched, {}, repair, journal);
+  }
+  /// The same; orbits that are known as they are now need not be walked, nor be among the touched.
+  void repair(const GMap& map, std::span<const DartId> touched, const KnownOrbits& known,
+              OrbitRepair& repair, Journal* journal = nullptr);
 
   // For rewrites that know what becomes of an orbit, in place of a repair.
 

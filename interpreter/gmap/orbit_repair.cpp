@@ -88,11 +88,12 @@ class OrbitRepairer {
     index_.rows_.resize(map.dart_end(), kNoRow);
   }
 
-  void repair_few(std::span<const DartId> touched) {
+  void repair_few(std::span<const DartId> touched, const KnownOrbits& known) {
     work_.parts_.clear();
     work_.darts_.clear();
     work_.old_rows_.clear();
     work_.open_.clear();
+    list_known(known);
     for (DartId d : touched) {
       GMSIM_CHECK(index(d) < map_.dart_end(), "touched dart is not of this map");
       if (row(d) == kWalked) continue;
@@ -106,17 +107,16 @@ class OrbitRepairer {
               [](const auto& a, const auto& b) { return a.smallest < b.smallest; });
     for (const OrbitRepair::Part& part : work_.parts_) name_part(part);
     for (Row row : work_.open_) {
-      if (marked(smallest(row))) remove_row(row);
+      if (!marked(smallest(row))) continue;
+      if (journal_ != nullptr) journal_->record_smallest(index_, row, unmark(smallest(row)));
+      remove_row(row);
     }
   }
 
-  void repair_many(std::span<const DartId> touched) {
-    const std::uint32_t dart_end = map_.dart_end();
-    work_.new_rows_.assign(dart_end, kNoRow);
-    for (Row* const new_rows = work_.new_rows_.data(); DartId d : touched) {
-      GMSIM_CHECK(index(d) < dart_end, "touched dart is not of this map");
-      new_rows[index(d)] = kTouched;
-    }
+  void repair_many(std::span<const DartId> touched, std::span<const DartId> known) {
+    work_.new_rows_.assign(map_.dart_end(), kNoRow);
+    mark_touched(touched);
+    mark_touched(known);
     if (links_.count == 2) {
       name_all([&](DartId d, auto&& visit) {
         detail::walk_alternating(links_.alpha[0], links_.alpha[1], d, visit);
@@ -137,6 +137,21 @@ class OrbitRepairer {
 
   // --- few touched darts: rows whose orbit was met are marked until they are taken
 
+  void list_known(const KnownOrbits& known) {
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : known.ends) {
+      DartId least = known.darts[begin];
+      const auto first = static_cast<std::uint32_t>(work_.darts_.size());
+      for (const DartId d : known.darts.subspan(begin, end - begin)) {
+        take(d);
+        least = std::min(least, d);
+      }
+      work_.parts_.push_back({least, first, static_cast<std::uint32_t>(work_.darts_.size())});
+      begin = end;
+    }
+    work_.visited_darts += known.darts.size();
+  }
+
   void drop(DartId d) {
     if (journal_ != nullptr) journal_->record_row(index_, d, row(d));
     open_row(row(d));
@@ -146,21 +161,24 @@ class OrbitRepairer {
 
   void open_row(Row row) {
     if (marked(smallest(row))) return;
-    if (journal_ != nullptr) journal_->record_smallest(index_, row);
     smallest(row) = mark(smallest(row));
     work_.open_.push_back(row);
+  }
+
+  /// Lists a dart of the part at hand.
+  void take(DartId d) {
+    const Row old = row(d);
+    if (old != kNoRow) open_row(old);
+    work_.darts_.push_back(d);
+    work_.old_rows_.push_back(old);
+    row(d) = kWalked;
   }
 
   void walk_part(DartId d) {
     const auto begin = static_cast<std::uint32_t>(work_.darts_.size());
     DartId least = d;
-    const auto visit = [&](DartId x) {
-      const Row old = row(x);
-      if (old != kNoRow) open_row(old);
-      if (journal_ != nullptr) journal_->record_row(index_, x, old);
-      work_.darts_.push_back(x);
-      work_.old_rows_.push_back(old);
-      row(x) = kWalked;
+    const auto visit = [&](DartId x) __attribute__((always_inline)) {
+      take(x);
       least = std::min(least, x);
     };
     if (links_.count <= 2) {
@@ -187,12 +205,28 @@ class OrbitRepairer {
     }
     const bool free = former != kNoRow && marked(smallest(former));
     const Row name = free ? former : new_row();
+    if (journal_ != nullptr && free && unmark(smallest(name)) != part.smallest) {
+      journal_->record_smallest(index_, name, unmark(smallest(name)));
+    }
     smallest(name) = part.smallest;
-    for (std::uint32_t i = part.darts_begin; i < part.darts_end; ++i) row(work_.darts_[i]) = name;
+    for (std::uint32_t i = part.darts_begin; i < part.darts_end; ++i) {
+      if (journal_ != nullptr && work_.old_rows_[i] != name) {
+        journal_->record_row(index_, work_.darts_[i], work_.old_rows_[i]);
+      }
+      row(work_.darts_[i]) = name;
+    }
     publish(name, part.smallest, former);
   }
 
   // --- many touched darts: rows are marked when they are taken
+
+  void mark_touched(std::span<const DartId> darts) {
+    const std::uint32_t dart_end = map_.dart_end();
+    for (Row* const new_rows = work_.new_rows_.data(); DartId d : darts) {
+      GMSIM_CHECK(index(d) < dart_end, "touched dart is not of this map");
+      new_rows[index(d)] = kTouched;
+    }
+  }
 
   /// Goes through the map; `walk` calls its second argument for every dart of an orbit.
   template <class Walk>
@@ -219,7 +253,9 @@ class OrbitRepairer {
             new_rows[index(x)] = name;
             if (old != former) others_.add(old);
           });
-      if (journal_ != nullptr && smallest(name) != d) journal_->record_smallest(index_, name);
+      if (journal_ != nullptr && smallest(name) != d) {
+        journal_->record_smallest(index_, name, smallest(name));
+      }
       smallest(name) = mark(d);
       if (marks != kNoRow) publish(name, d, former);
     }
@@ -248,7 +284,7 @@ class OrbitRepairer {
       if (marked(d)) {
         d = unmark(d);
       } else {
-        if (journal_ != nullptr) journal_->record_smallest(index_, row);
+        if (journal_ != nullptr) journal_->record_smallest(index_, row, d);
         remove_row(row);
       }
     }
@@ -305,16 +341,15 @@ void OrbitRepair::clear() {
   visited_darts = 0;
 }
 
-void OrbitIndex::repair(const GMap& map, std::span<const DartId> touched, OrbitRepair& repair,
-                        Journal* journal) {
-  if (touched.empty()) return;
+void OrbitIndex::repair(const GMap& map, std::span<const DartId> touched,
+                        const KnownOrbits& known, OrbitRepair& repair, Journal* journal) {
+  if (touched.empty() && known.darts.empty()) return;
   if (journal != nullptr) journal->begin(*this);
   OrbitRepairer repairer(*this, map, repair, journal);
-  if (touched.size() >= map.dart_end() / kManyTouched) {
-    repairer.repair_many(touched);
-  } else {
-    repairer.repair_few(touched);
+  if (touched.size() + known.darts.size() < map.dart_end() / kManyTouched) {
+    return repairer.repair_few(touched, known);
   }
+  repairer.repair_many(touched, known.darts);
 }
 
 }  // namespace gmsim::gmap

@@ -66,8 +66,9 @@ bool prints_minus(const Value& value) {
 
 Binding binding_of(const Expr& expr) {
   switch (expr.kind) {
-    case ExprKind::If:
     case ExprKind::Let:
+      return expr.number == 0 ? Binding::If : binding_of(*expr.args.at(1));
+    case ExprKind::If:
       return Binding::If;
     case ExprKind::Not:
       return Binding::Not;
@@ -144,6 +145,7 @@ class Printer {
         text_ += slot_name(e.slot);
         break;
       case ExprKind::Let:
+        if (e.number != 0) return print_bare(*e.args.at(1));  // shared, not written by the author
         text_ += "let " + slot_name(e.slot) + " = ";
         arg(e, 0);
         text_ += "; ";

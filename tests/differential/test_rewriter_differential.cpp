@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "check/passes.h"
 #include "engine/rewrite.h"
 #include "gmap/validate.h"
 #include "support/engine_maps.h"
@@ -59,6 +60,19 @@ bool can_rewrite(const check::Rule& rule) {
                      [&](const check::PatternArc& arc) { return arc.dimension <= rule.dimension; });
 }
 
+/// With such a schema plans of accepted rules say what becomes of orbits; without, all is left to
+/// repairs.
+gmap::EmbeddingSchema every_orbit_type(int dimension) {
+  gmap::EmbeddingSchema schema;
+  for (const OrbitType type : all_types(dimension)) {
+    gmap::EmbeddingDecl embedding;
+    embedding.name = types::to_string(type);
+    embedding.orbit = type;
+    schema.add(embedding);
+  }
+  return schema;
+}
+
 void compare(const check::Rule& given, const Host& host, Counts& counts) {
   if (!can_compile(given.left, given.hooks, given.dimension) || !can_rewrite(given)) return;
   const check::Rule checked = with_slots(given);
@@ -73,6 +87,10 @@ void compare(const check::Rule& given, const Host& host, Counts& counts) {
   }
   compile::Program program;
   program.dimension = checked.dimension;
+  support::Diagnostics unread;
+  if (host.map.size() % 2 == 0 && check::check_topology(checked, unread)) {
+    program.schema = every_orbit_type(checked.dimension);
+  }
   const compile::Rule rule = compile::compile_rule(checked, program.schema);
   engine::State state(program, to_gmap(host.map));
   for (const OrbitType type : all_types(checked.dimension)) state.store.use_index(type);
