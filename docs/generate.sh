@@ -15,10 +15,11 @@ target="${2:-$here}"
   done
 } > "$target/stdlib.md"
 "$gmsim" list builtins --markdown > "$target/builtins.md"
+"$gmsim" list scene --markdown > "$target/scenes.md"
 
 if [ "${2:-}" = --check ]; then
   status=0
-  for page in diagnostics stdlib builtins; do
+  for page in diagnostics stdlib builtins scenes; do
     cmp -s "$target/$page.md" "$here/$page.md" || { echo "docs/$page.md is out of date: run docs/generate.sh"; status=1; }
   done
   exit $status

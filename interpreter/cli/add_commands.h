@@ -22,6 +22,7 @@ void add_info(CLI::App& app, Options& options);
 void add_export(CLI::App& app, Options& options);
 void add_recover(CLI::App& app, Options& options);
 void add_snapshot(CLI::App& app, Options& options);
+void add_view(CLI::App& app, Options& options);
 
 /// Options of several commands.
 void add_stdlib(CLI::App& app, Options& options);

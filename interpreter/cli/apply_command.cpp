@@ -62,7 +62,7 @@ class ApplyJob {
     if (!load() || !choose()) return session_.finish();
     const auto begin = std::chrono::steady_clock::now();
     for (std::uint32_t pass = 0; pass < session_.options.times; ++pass)
-      if (!apply_once()) return session_.finish();
+      if (!apply_once()) return stopped();
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     summarise();
     if (!session_.options.output.empty()) write_result();
@@ -70,6 +70,12 @@ class ApplyJob {
   }
 
  private:
+  /// What goes wrong while rules are applied is no mistake of the command line or of a file.
+  int stopped() {
+    const int code = session_.finish();
+    return code == kRejected ? kStopped : code;
+  }
+
   bool load() {
     const auto mesh = scene::mesh_from_spec(session_.options.mesh, session_.diagnostics);
     rules_ = session_.check_rules();
@@ -98,6 +104,7 @@ class ApplyJob {
     if (!session_.options.where.empty() && !read_where()) return false;
     if (!session_.options.to.empty() && !read_to()) return false;
     if (session_.options.at.empty() && item_->hook_count() > 1) return refuse_several_hooks();
+    if (item_->operation && session_.options.at.size() > 1) return refuse_several_darts();
     engine::RewriteOptions options;
     options.validate = session_.options.validate;
     if (session_.options.naive_matcher) options.matcher = engine::MatcherKind::Naive;
@@ -112,6 +119,12 @@ class ApplyJob {
                                 session_.options.rule, item_->hook_count()),
          .help = fmt::format("name one dart for each with `--at`, as in `--at {}`",
                              item_->hook_count() == 2 ? "12,57" : "12,57,…")});
+    return false;
+  }
+
+  bool refuse_several_darts() {
+    session_.diagnostics.report({.kind = DiagnosticKind::Usage,
+                                 .message = "an operation is applied at one dart"});
     return false;
   }
 
@@ -191,12 +204,9 @@ class ApplyJob {
   engine::RewriteOutcome apply_at(const std::vector<std::uint32_t>& numbers) {
     std::vector<DartId> darts;
     for (const std::uint32_t number : numbers) darts.push_back(DartId{number});
-    if (item_->operation && darts.size() == 1)
+    if (item_->operation)
       return engine::OperationRunner(*rewriter_).run(*item_->operation, darts[0], arguments_);
-    if (item_->rule) return rewriter_->apply(*item_->rule, darts, arguments_);
-    session_.diagnostics.report({.kind = DiagnosticKind::Usage,
-                                 .message = "an operation is applied at one dart"});
-    return {};
+    return rewriter_->apply(*item_->rule, darts, arguments_);
   }
 
   const gmap::OrbitIndex& vertices() {

@@ -30,7 +30,9 @@ bool is_part(const Session& session) {
 }
 
 std::string state_of(const Session& session, const TrajectoryReader& reader) {
-  if (reader.summary().complete) return "complete";
+  const std::string& ending = reader.summary().ending;
+  if (reader.summary().complete && (ending.empty() || ending == "finished")) return "complete";
+  if (reader.summary().complete) return ending;
   return is_part(session) ? "going on, or cut short" : "recovered from a run that was cut short";
 }
 
@@ -183,7 +185,8 @@ void print_json(Session& session, const TrajectoryReader& reader,
   const auto times = reader.times();
   JsonObject object;
   object.add("file", session.options.file.file.string());
-  object.add("complete", reader.summary().complete).add("frames", reader.summary().frames);
+  object.add("complete", reader.summary().complete).add("ending", reader.summary().ending);
+  object.add("frames", reader.summary().frames);
   object.add("events", reader.summary().events).add("reports", reader.summary().reports);
   object.add("times", times).add("dimension", run.dimension);
   object.add_text("meshes", json_list(overview.epochs));

@@ -10,6 +10,9 @@
 
 #include "cli/commands.h"
 #include "cli/run_cli.h"
+#include "engine/integrators.h"
+#include "scene/scene.h"
+#include "scene/schema.h"
 #include "support/suggest.h"
 #include "types/builtin.h"
 #include "types/unit.h"
@@ -167,6 +170,26 @@ Entries list_units() {
   return entries;
 }
 
+Entries list_integrators() {
+  Entries entries;
+  for (const engine::IntegratorInfo& method : engine::integrators())
+    entries.push_back({std::string(method.name),
+                       fmt::format("order {}, {} evaluation{} a step{}", method.order,
+                                   method.stages, method.stages == 1 ? "" : "s",
+                                   method.adaptive ? ", chooses its steps" : ""),
+                       std::string(method.doc)});
+  return entries;
+}
+
+Entries list_scene_keys() {
+  Entries entries;
+  for (const scene::SchemaRow& row : scene::schema_rows())
+    entries.push_back({std::string(row.path),
+                       row.fallback.empty() ? "" : fmt::format("({})", row.fallback),
+                       std::string(row.doc)});
+  return entries;
+}
+
 /// A list of items that depends on the dimension of the map, or of things that do not.
 struct Listing {
   const char* name;
@@ -194,6 +217,8 @@ const std::vector<Listing>& listings() {
       {"builtins", {}, list_builtins},
       {"types", {}, [] { return list_names(types::value_type_names()); }},
       {"units", {}, list_units},
+      {"integrators", {}, list_integrators},
+      {"scene", {}, list_scene_keys},
       {"diagnostics", {}, list_diagnostics}};
   return all;
 }
@@ -294,7 +319,9 @@ int run_list(Session& session) {
     entries = dimension == 0 ? merge_dimensions(rules, *listing)
                              : listing->per_dimension(rules.in(dimension));
   }
-  if (session.options.markdown) {
+  if (session.options.markdown && session.options.what == "scene") {
+    session.out << scene::schema_documentation();
+  } else if (session.options.markdown) {
     std::string title = listing->name;
     title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
     print_markdown(entries, title, session.out);

@@ -19,6 +19,7 @@ Examples:
   gmsim hanging.yaml                                  run a scene; writes hanging.vtkhdf
   gmsim check hanging.yaml my.rule                    all errors of scenes and rule files
   gmsim info hanging.vtkhdf                           what a run left
+  gmsim view hanging.vtkhdf                           a page for the browser
   gmsim export hanging.vtkhdf -o frames               for ParaView of any age
   gmsim list rules                                    what the library offers
   gmsim apply triangulate_face --mesh grid:quads:10x10 -o out.vtu
@@ -30,7 +31,7 @@ Exit codes: 0 done, 1 stopped (unstable, diverged, an expectation not met), 2 in
 )";
 
 constexpr std::array kCommands = {"run",  "check",  "verify", "explain", "study", "info", "export",
-                                  "recover", "snapshot", "list", "apply", "fuzz"};
+                                  "recover", "snapshot", "view", "list", "apply", "fuzz"};
 
 /// Shows commands by the first line of what they do; `gmsim COMMAND -h` has the rest.
 class Formatter : public CLI::Formatter {
@@ -139,7 +140,7 @@ ParsedOptions parse_options(std::span<const std::string> arguments, std::ostream
   add_dimension(app, options);
   add_stdlib(app, options);
   for (const auto add : {add_run, add_check, add_verify, add_explain, add_study, add_info,
-                         add_export, add_recover, add_snapshot, add_list, add_apply, add_fuzz})
+                         add_export, add_recover, add_snapshot, add_view, add_list, add_apply, add_fuzz})
     add(app, options);
 
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());

@@ -28,7 +28,8 @@ struct RunOptions {
 /// Of `study`, beside the scene.
 struct StudyOptions {
   std::vector<std::string> methods;
-  std::vector<double> steps;                ///< s
+  std::vector<double> steps;                ///< s, of methods with a fixed step
+  std::vector<double> tolerances = {1e-4, 1e-6, 1e-8};  ///< of those that choose their steps
   std::optional<double> reference_step;     ///< s
   std::string reference_method = "rk4";
   std::uint32_t repetitions = 5;
@@ -44,6 +45,8 @@ struct FileOptions {
   bool json = false;
   bool show_scene = false;
   bool show_rules = false;
+  std::int64_t frames = 150;     ///< of a page, at most
+  std::string field, title;
   bool force = false;
 };
 
@@ -63,7 +66,8 @@ struct Options {
     Info,
     Export,
     Recover,
-    Snapshot
+    Snapshot,
+    View
   } command = Command::None;
 
   // every command
@@ -94,6 +98,7 @@ struct Options {
   std::uint64_t seed = 0;
   bool has_seed = false;
   std::uint32_t trials = 1000;
+  bool force = false;  ///< try a rule that the checker rejects
 
   RunOptions run;
   StudyOptions study;

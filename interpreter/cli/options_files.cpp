@@ -39,6 +39,14 @@ Examples:
   gmsim snapshot run.vtkhdf.part -o now.vtkhdf
 )";
 
+constexpr const char* kViewExamples = R"(Make a page that shows a run in a browser.
+
+Examples:
+  gmsim view run.vtkhdf                               writes run.html, one file to keep or to mail
+  gmsim view run.vtkhdf -o swing.html --field velocity
+  gmsim view run.vtkhdf --frames 500                  more frames, larger page
+)";
+
 void add_file(CLI::App& command, Options& options) {
   command.add_option("file", options.file.file, "a .vtkhdf or .vtkhdf.part that gmsim wrote")
       ->required()
@@ -94,6 +102,18 @@ void add_snapshot(CLI::App& app, Options& options) {
       ->type_name("FILE");
   add_force(*command, options);
   command->callback([&options] { options.command = Options::Command::Snapshot; });
+}
+
+void add_view(CLI::App& app, Options& options) {
+  auto* command = app.add_subcommand("view", kViewExamples);
+  add_file(*command, options);
+  command->add_option("-o,--output", options.file.output, "the page; else NAME.html")
+      ->type_name("FILE");
+  command->add_option("--field", options.file.field, "colours the mesh when the page opens")
+      ->type_name("NAME");
+  command->add_option("--frames", options.file.frames, "frames at most")->check(CLI::PositiveNumber);
+  command->add_option("--title", options.file.title, "heading of the page")->type_name("TEXT");
+  command->callback([&options] { options.command = Options::Command::View; });
 }
 
 }  // namespace gmsim::cli

@@ -6,9 +6,10 @@
 namespace gmsim::cli {
 namespace {
 
-constexpr const char* kCheckExamples = R"(Report every error of rule files.
+constexpr const char* kCheckExamples = R"(Report every error of scenes and rule files.
 
 Examples:
+  gmsim check hanging.yaml                            with line, column and a suggestion
   gmsim check my.rule
   gmsim check stdlib-rules/tear/*.rule --stdlib stdlib-rules
 )";
@@ -19,7 +20,8 @@ Examples:
   gmsim list rules
   gmsim list interactions --dimension 3
   gmsim list embeddings my.rule
-  gmsim list builtins --markdown
+  gmsim list integrators
+  gmsim list scene                                    the keys of scenes
 )";
 
 constexpr const char* kApplyExamples = R"(Apply a rule or an operation to a mesh and write the result.
@@ -39,6 +41,7 @@ constexpr const char* kFuzzExamples = R"(Apply a rule to random valid maps, look
 Examples:
   gmsim fuzz separate_elements
   gmsim fuzz my_rule my.rule --trials 10000 --seed 7
+  gmsim fuzz my_rule my.rule --force       what a rule breaks that the checker rejects
 )";
 
 void add_rule_and_parameters(CLI::App& command, Options& options) {
@@ -53,7 +56,7 @@ void add_rule_and_parameters(CLI::App& command, Options& options) {
 
 void add_check(CLI::App& app, Options& options) {
   auto* command = app.add_subcommand("check", kCheckExamples);
-  command->add_option("files", options.files, "rule files")->required();
+  command->add_option("files", options.files, "scenes (.yaml) and rule files")->required();
   add_stdlib(*command, options);
   command->callback([&options] { options.command = Options::Command::Check; });
 }
@@ -63,7 +66,7 @@ void add_list(CLI::App& app, Options& options) {
   command
       ->add_option("what", options.what,
                    "rules, operations, interactions, families, criteria, embeddings, orbits, "
-                   "functions, patterns, builtins, types, units or diagnostics")
+                   "functions, patterns, builtins, types, units, integrators, scene or diagnostics")
       ->required();
   command->add_option("files", options.files, "rule files to list beside the library");
   add_dimension(*command, options);
@@ -109,6 +112,8 @@ void add_fuzz(CLI::App& app, Options& options) {
         options.has_seed = true;
       },
       "repeat a run that printed this seed");
+  command->add_flag("--force", options.force,
+                    "try a rule although the checker rejects it, to see what it breaks");
   add_dimension(*command, options);
   add_stdlib(*command, options);
   command->callback([&options] { options.command = Options::Command::Fuzz; });

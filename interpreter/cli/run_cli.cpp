@@ -10,14 +10,6 @@
 namespace gmsim::cli {
 namespace {
 
-int refuse_scene(Session& session) {
-  session.diagnostics.report(
-      {.kind = support::DiagnosticKind::Usage,
-       .message = "this version does not run scenes yet",
-       .help = "it checks rule files and applies rules to meshes: `gmsim -h` shows how"});
-  return session.finish();
-}
-
 int run_command(Session& session) {
   using Command = Options::Command;
   switch (session.options.command) {
@@ -30,10 +22,11 @@ int run_command(Session& session) {
     case Command::Export: return run_export(session);
     case Command::Recover: return run_recover(session);
     case Command::Snapshot: return run_snapshot(session);
-    case Command::Run:
-    case Command::Verify:
-    case Command::Explain:
-    case Command::Study: return refuse_scene(session);
+    case Command::View: return run_view(session);
+    case Command::Run: return run_scene(session);
+    case Command::Verify: return run_verify(session);
+    case Command::Explain: return run_explain(session);
+    case Command::Study: return run_study(session);
     case Command::None: break;
   }
   return kRejected;

@@ -16,13 +16,25 @@ namespace gmsim::cli {
 using support::DiagnosticKind;
 
 Session::Session(const Options& options_in, std::ostream& out_in, std::ostream& err_in)
-    : options(options_in), out(out_in), err(err_in) {}
+    : options(options_in), out(out_in), err(err_in), trace(err_in) {
+  for (const std::string& filter : options.run.traces)
+    if (!trace.enable(filter))
+      diagnostics.report(
+          {.kind = DiagnosticKind::Usage,
+           .message = fmt::format("there is no phase to trace in `{}`", filter),
+           .help = "phases are parse, check, compile, match, kernel, rewrite and step"});
+}
 
-check::CheckedRules Session::check_rules() {
+check::CheckedRules Session::check_rules(const std::vector<std::string>& files) {
   check::LibraryOptions library;
   library.stdlib_folder = options.stdlib_folder;
-  std::vector<std::filesystem::path> paths(options.files.begin(), options.files.end());
+  const std::vector<std::filesystem::path> paths(files.begin(), files.end());
   return check::check_rules(paths, library, sources, diagnostics);
+}
+
+void Session::print_warnings() {
+  support::render(diagnostics, sources, err);
+  diagnostics.rewind(0);
 }
 
 int Session::finish() {
