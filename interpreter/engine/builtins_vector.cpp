@@ -44,8 +44,8 @@ void normalize(const double* v, int n, double* out) {
   const double scale = square_is_safe(squared) ? 1.0 : largest(v, n);
   if (scale == 0.0) return void(std::fill_n(out, n, 0.0));
   for (int i = 0; i < n; ++i) scaled[i] = v[i] / scale;
-  const double length = std::sqrt(squared_norm(scaled, n));
-  for (int i = 0; i < n; ++i) out[i] = scaled[i] / length;
+  const double inverse = 1.0 / std::sqrt(squared_norm(scaled, n));
+  for (int i = 0; i < n; ++i) out[i] = scaled[i] * inverse;
 }
 
 }  // namespace

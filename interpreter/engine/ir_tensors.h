@@ -45,8 +45,8 @@ Entries<N> normalize(const Entries<N>& v) {
   const N scale = square_is_safe(dot(v, v)) ? N(1) : largest(v);
   if (scale == 0) return {};
   const Entries<N> scaled = {v[0] / scale, v[1] / scale, v[2] / scale};
-  const N length = std::sqrt(dot(scaled, scaled));
-  return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
+  const N inverse = 1 / std::sqrt(dot(scaled, scaled));
+  return {scaled[0] * inverse, scaled[1] * inverse, scaled[2] * inverse};
 }
 template <typename N>
 Entries<N> outer(const Entries<N>& a, const Entries<N>& b) {

@@ -72,6 +72,9 @@ GMSIM_INLINE Pack<3> cross_product(const Pack<3>& a, const Pack<3>& b) {
   return {{a.c[1] * b.c[2] - a.c[2] * b.c[1], a.c[2] * b.c[0] - a.c[0] * b.c[2],
            a.c[0] * b.c[1] - a.c[1] * b.c[0]}};
 }
+GMSIM_INLINE Pack<3> times(const Pack<3>& a, V b) {
+  return {{a.c[0] * b, a.c[1] * b, a.c[2] * b}};
+}
 /// Squares of very short and very long vectors leave the range of numbers.
 GMSIM_INLINE M square_is_safe(V squared) {
   return (squared > 1e-280) & (squared < 1e280);
@@ -92,7 +95,7 @@ static V careful_norm(const Pack<3>& v, V squared) {
 static Pack<3> careful_unit(const Pack<3>& v, M safe) {
   const V scale = select(safe, broadcast(1.0), largest_entry(v));
   const Pack<3> scaled = over(v, scale);
-  Pack<3> unit = over(scaled, sqrt(dot_product(scaled, scaled)));
+  Pack<3> unit = times(scaled, 1.0 / sqrt(dot_product(scaled, scaled)));
   for (int k = 0; k < 3; ++k) unit.c[k] = select(scale == 0.0, V{}, unit.c[k]);
   return unit;
 }
@@ -108,7 +111,7 @@ static void normalize(const Instruction& in, BlockFrame& f) {
   run<3, 3>(in, f, [](const Pack<3>& v) {
     const V squared = dot_product(v, v);
     const M safe = square_is_safe(squared);
-    if (__builtin_expect(!any(~safe), 1)) return over(v, sqrt(squared));
+    if (__builtin_expect(!any(~safe), 1)) return times(v, 1.0 / sqrt(squared));
     return careful_unit(v, safe);
   });
 }
@@ -117,7 +120,7 @@ static void unit_and_norm(const Instruction& in, BlockFrame& f) {
     const V squared = dot_product(v, v), length = sqrt(squared);
     const M safe = square_is_safe(squared);
     if (__builtin_expect(!any(~safe), 1)) {
-      const Pack<3> unit = over(v, length);
+      const Pack<3> unit = times(v, 1.0 / length);
       return Pack<4>{{unit.c[0], unit.c[1], unit.c[2], length}};
     }
     const Pack<3> unit = careful_unit(v, safe);
