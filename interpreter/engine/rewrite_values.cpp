@@ -39,6 +39,12 @@ void Rewriter::Implementation::walk_rows(std::uint32_t row,
                                          const std::vector<std::uint32_t>& joined) {
   row_seen_[row] = 1;
   row_queue_.assign(1, row);
+  if (joined.size() == 1) {  // a link leads back where it comes from
+    const std::uint32_t other = match_.next_row(row, joined.front());
+    row_seen_[other] = 1;
+    if (other != row) row_queue_.push_back(other);
+    return;
+  }
   for (std::size_t next = 0; next < row_queue_.size(); ++next) {
     for (const std::uint32_t position : joined) {
       const std::uint32_t to = match_.next_row(row_queue_[next], position);
