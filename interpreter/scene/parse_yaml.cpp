@@ -267,8 +267,8 @@ std::pair<std::string, std::string> in_plain_words(const std::string& problem) {
     const char* help;
   };
   static constexpr Row kRows[] = {
-      {"end of map flow not found", "this mapping in braces is not closed", "add the `}`, or a comma between its keys"},
-      {"end of sequence flow not found", "this list in brackets is not closed", "add the `]`, or a comma between its entries"},
+      {"end of map flow not found", "this mapping in braces is not closed", "add the `}`, a comma between keys, or quotes around an expression"},
+      {"end of sequence flow not found", "this list in brackets is not closed", "add the `]`, a comma between entries, or quotes around an expression"},
       {"end of map not found", "the keys of this mapping do not line up", "keys of one mapping begin in one column"},
       {"end of sequence not found", "the entries of this list do not line up", "the `-` of one list stand in one column"},
       {"illegal map value", "a `:` cannot stand here", "put a text that holds `: ` in quotes"},
