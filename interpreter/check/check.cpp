@@ -21,8 +21,8 @@ constexpr std::int64_t kNodeBudget = 2'000'000;
 /// (DimensionChecker::passes), report.
 class RuleChecker {
  public:
-  static CheckedRules run(LoadedRules loaded, const support::SourceMap& sources,
-                          support::Diagnostics& diagnostics) {
+  static CheckedRules run(LoadedRules loaded, const LibraryOptions& options,
+                          const support::SourceMap& sources, support::Diagnostics& diagnostics) {
     CheckedRules rules;
     rules.checking_ = std::make_shared<Checking>(loaded, diagnostics);
     Checking& checking = *rules.checking_;
@@ -35,6 +35,7 @@ class RuleChecker {
       env.library = library.get();
       env.states.resize(checking.items.entries().size());
       env.names_missing = loaded.broken;
+      env.keep_rejected = options.keep_rejected;
       env.node_budget = kNodeBudget;
       DimensionChecker(env, loaded, sources).run();
       list_definitions(env);
@@ -77,13 +78,13 @@ std::string CheckedRules::why_absent(const std::string& item, int dimension) con
 CheckedRules check_rules(const std::vector<std::filesystem::path>& files,
                          const LibraryOptions& options, support::SourceMap& sources,
                          support::Diagnostics& diagnostics) {
-  return RuleChecker::run(load_rules(files, {}, options, sources, diagnostics), sources,
+  return RuleChecker::run(load_rules(files, {}, options, sources, diagnostics), options, sources,
                           diagnostics);
 }
 
 CheckedRules check_texts(const std::vector<support::FileId>& texts, const LibraryOptions& options,
                          support::SourceMap& sources, support::Diagnostics& diagnostics) {
-  return RuleChecker::run(load_rules({}, texts, options, sources, diagnostics), sources,
+  return RuleChecker::run(load_rules({}, texts, options, sources, diagnostics), options, sources,
                           diagnostics);
 }
 

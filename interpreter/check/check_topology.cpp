@@ -24,28 +24,42 @@ bool no_paths(const Pattern& right, support::Diagnostics& diagnostics) {
   return right.paths.empty();
 }
 
-}  // namespace
-
-bool check_topology(const Rule& rule, support::Diagnostics& diagnostics) {
-  std::set<std::string> reported;
+/// C1 to C6. `links`: the links of the sides can be looked at, because C1 to C3 and C6 hold.
+bool check_structure(const Rule& rule, std::set<std::string>& reported, bool& links,
+                     support::Diagnostics& diagnostics) {
   StructureChecker structure(rule.dimension, reported, diagnostics);
   const PatternNode* reference = reference_label(rule.left, rule.hooks);
   const std::size_t length = reference != nullptr ? reference->label.size() : 0;
   std::vector<PatternSide> sides{{rule.left, "`left`"}};
   if (rule.has_right) sides.push_back({rule.right, "`right`"});
 
-  bool good = !rule.has_right || no_paths(rule.right, diagnostics);
+  links = !rule.has_right || no_paths(rule.right, diagnostics);
   for (const PatternSide& side : sides) {
-    good &= structure.dimensions(side);
-    good &= structure.names(side);
-    good &= structure.label_lengths(side, length, reference);
-    good &= structure.double_links(side);
+    links &= structure.dimensions(side);
+    links &= structure.names(side);
+    links &= structure.label_lengths(side, length, reference);
+    links &= structure.double_links(side);
   }
   const bool rooted = structure.hook_labels(rule.left, rule.hooks) &
                       structure.hook_counts(sides.front(), rule.hooks);
-  // The links of a pattern make sense only when C1 to C3 and C6 hold.
-  if (!good || !rule.has_right) return good && rooted;
-  return check_links(rule, reported, diagnostics) && rooted;
+  return links && rooted;
+}
+
+}  // namespace
+
+bool check_topology(const Rule& rule, support::Diagnostics& diagnostics) {
+  std::set<std::string> reported;
+  bool links = false;
+  const bool good = check_structure(rule, reported, links, diagnostics);
+  if (!links || !rule.has_right) return good;
+  return check_links(rule, reported, diagnostics) && good;
+}
+
+bool is_well_formed(const Rule& rule) {
+  std::set<std::string> reported;
+  bool links = false;
+  support::Diagnostics unread;
+  return check_structure(rule, reported, links, unread);
 }
 
 bool check_match(const Pattern& match, NodeIndex hook, int dimension,

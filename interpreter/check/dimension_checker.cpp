@@ -246,11 +246,12 @@ void DimensionChecker::check_rules() {
     const ItemEntry& entry = (*env_.items)[i];
     ItemContext context = context_for(i);
     Rule rule = check_rule(context, entry);
+    const bool makes_sense = context.good() && is_well_formed(rule);
     if (context.good() && check_topology(rule, context.diagnostics))
       check_rule_embeddings(rule, entry, files_, env_.library->schema, context.diagnostics);
     const bool good = context.good();
     keep(i, context);
-    if (!good) continue;
+    if (!good && !(env_.keep_rejected && makes_sense)) continue;
     rule.footprint = footprint(rule);
     env_.library->rules.push_back(std::move(rule));
   }

@@ -53,6 +53,7 @@ struct Environment {
   std::map<ItemIndex, FunctionFacts> functions;
   /// Some text could not be parsed: a name that is not found may stand there.
   bool names_missing = false;
+  bool keep_rejected = false;  ///< LibraryOptions::keep_rejected
   /// Nodes of expressions that this run may still make.
   std::int64_t node_budget = 0;
   /// Functions or patterns that are being checked because another one uses them.

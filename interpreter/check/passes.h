@@ -10,6 +10,9 @@ namespace gmsim::check {
 /// C1-C8 of docs/theory.md: the rule keeps every map a map.
 bool check_topology(const Rule& rule, support::Diagnostics& diagnostics);
 
+/// C1-C6, without a report: the rule says something that can be done to a map.
+[[nodiscard]] bool is_well_formed(const Rule& rule);
+
 /// E1-E6: after the rule every orbit has exactly one value for each embedding of the schema.
 /// Call only for rules that pass check_topology.
 bool check_embeddings(const Rule& rule, const gmap::EmbeddingSchema& schema,

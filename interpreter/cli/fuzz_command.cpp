@@ -25,10 +25,11 @@ using engine::State;
 using gmap::GMap;
 using types::index;
 
-/// A map and the hook darts at which the rule is applied.
+/// A map, the hook darts at which the rule is applied, and what the values come from.
 struct Trial {
   GMap map;
   std::vector<DartId> hooks;
+  std::uint64_t seed = 0;
 };
 
 /// What a rule did to one map.
@@ -67,7 +68,11 @@ class Fuzzer {
       : session_(session),
         rules_(rules),
         program_(compile::compile_program(rules.in(dimension))),
-        random_(session.options.seed) {}
+        random_(session.options.seed) {
+    // What plans say of orbits holds for rules that are accepted.
+    if (session.options.force)
+      for (compile::Rule& rule : program_.rules) rule.rewrite.orbits.clear();
+  }
 
   /// False when something went wrong or nothing could be tried.
   bool run() {
@@ -85,27 +90,28 @@ class Fuzzer {
       if (!verdict.broken.empty()) return report_broken(shrink(std::move(candidate), true));
     }
     report_result();
-    return true;
+    return errors_ == 0 || !session_.options.force;
   }
 
  private:
   Trial make_trial() {
     const auto darts = static_cast<std::uint32_t>(1 + random_() % 40);
-    Trial trial{gmap::random_map(program_.dimension, darts, random_()), {}};
+    Trial trial{gmap::random_map(program_.dimension, darts, random_()), {}, random_()};
     for (std::size_t k = 0; k < item_->hook_count(); ++k)
       trial.hooks.push_back(DartId{static_cast<std::uint32_t>(random_() % darts)});
     return trial;
   }
 
   /// Every stored value gets a number that depends on its orbit, so that mixed-up values show.
-  void fill(State& state) {
+  static void fill(State& state, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
     state.use_data();
     for (const types::EmbeddingId id : state.store.embeddings()) {
       gmap::EmbeddingColumn& column = state.store.column(id);
       const gmap::OrbitIndex* rows = state.store.find_index(state.store.schema()[id].orbit);
       std::vector<double> value(column.stride());
       for (gmap::Row row = 0; row < rows->row_end(); ++row) {
-        for (double& component : value) component = static_cast<double>(random_() % 1000) / 100;
+        for (double& component : value) component = static_cast<double>(random() % 1000) / 100;
         if (state.store.schema()[id].type.kind == types::ValueKind::Bool)
           for (double& component : value) component = component > 5 ? 1 : 0;
         column.set(row, value);
@@ -115,16 +121,28 @@ class Fuzzer {
 
   Verdict judge(const Trial& trial) {
     State state(program_, trial.map);
-    fill(state);
-    engine::Rewriter rewriter(state);
-    const engine::RewriteOutcome outcome =
-        item_->operation
-            ? engine::OperationRunner(rewriter).run(*item_->operation, trial.hooks[0], arguments_)
-            : rewriter.apply(*item_->rule, trial.hooks, arguments_);
+    fill(state, trial.seed);
+    engine::Rewriter rewriter(state, {.validate = session_.options.force});
     Verdict verdict;
-    verdict.applied = outcome.applied();
-    if (outcome.error) verdict.error = outcome.error->message;
-    verdict.broken = gmap::validate(state.map, state.store);
+    try {
+      const engine::RewriteOutcome outcome =
+          item_->operation
+              ? engine::OperationRunner(rewriter).run(*item_->operation, trial.hooks[0], arguments_)
+              : rewriter.apply(*item_->rule, trial.hooks, arguments_);
+      verdict.applied = outcome.applied();
+      if (outcome.error && outcome.error->kind == support::DiagnosticKind::InvalidMap) {
+        verdict.broken = outcome.error->notes;
+        verdict.broken.pop_back();  // at which darts
+        return verdict;
+      }
+      if (outcome.error) verdict.error = outcome.error->message;
+      verdict.broken = gmap::validate(state.map, state.store);
+    } catch (const support::InternalError& error) {
+      // Only a rule that was rejected can leave links to removed darts.
+      if (!session_.options.force) throw;
+      const std::string_view text = error.what();
+      verdict.broken = {std::string(text.substr(text.rfind(": ") + 2))};
+    }
     return verdict;
   }
 
@@ -137,7 +155,7 @@ class Fuzzer {
         if (!trial.map.alive(dart) ||
             std::find(trial.hooks.begin(), trial.hooks.end(), dart) != trial.hooks.end())
           continue;
-        Trial candidate{without(trial.map, dart), trial.hooks};
+        Trial candidate{without(trial.map, dart), trial.hooks, trial.seed};
         const Verdict verdict = judge(candidate);
         if (wants_broken ? verdict.broken.empty() : verdict.error.empty()) continue;
         trial = std::move(candidate);
@@ -188,11 +206,27 @@ bool is_present(const check::RuleLibrary& library, const std::string& name) {
   return library.find_rule(name) != nullptr || library.find_operation(name) != nullptr;
 }
 
+/// With `--force` a rule that the checker rejects is tried, too.
+check::CheckedRules rules_to_try(Session& session) {
+  check::LibraryOptions library;
+  library.stdlib_folder = session.options.stdlib_folder;
+  library.keep_rejected = session.options.force;
+  const std::vector<std::filesystem::path> files(session.options.files.begin(),
+                                                 session.options.files.end());
+  return check::check_rules(files, library, session.sources, session.diagnostics);
+}
+
 }  // namespace
 
 int run_fuzz(Session& session) {
-  const check::CheckedRules rules = session.check_rules();
-  if (session.diagnostics.has_errors()) return session.finish();
+  const check::CheckedRules rules = rules_to_try(session);
+  if (session.diagnostics.has_errors()) {
+    const int code = session.finish();
+    const auto there = [&](int n) { return is_present(rules.in(n), session.options.rule); };
+    if (!session.options.force || !(there(1) || there(2) || there(3))) return code;
+    session.out << fmt::format("`{}` is tried although the checker rejects it or what is beside it\n",
+                               session.options.rule);
+  }
   Options options = session.options;
   if (!options.has_seed) options.seed = std::random_device{}();
   Session seeded(options, session.out, session.err);
