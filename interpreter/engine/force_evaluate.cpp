@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "engine/force_readings.h"
+
 namespace gmsim::engine {
 
 void evaluate_match(const ForceProgram& program, const ForceMatch& match, const ForceMoment& moment,
@@ -26,6 +28,10 @@ void evaluate_match(const ForceProgram& program, const ForceMatch& match, const 
         set(store.column(origin.embedding).get(row()).subspan(origin.offset, origin.width));
         break;
       case Kind::Own: set({match.own.data() + origin.offset, origin.width}); break;
+      case Kind::ForceOn:
+        set_vector(moment.forces->find(origin.orbit, origin.offset)->values());
+        break;
+      case Kind::AtomicForce: set_vector(moment.forces->atomic); break;
       case Kind::Time: set({&moment.time, 1}); break;
       case Kind::Dt: set({&moment.dt, 1}); break;
       case Kind::Step: set({&moment.step, 1}); break;

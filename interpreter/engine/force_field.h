@@ -14,6 +14,9 @@
 
 namespace gmsim::engine {
 
+struct AtomicForce;
+struct ForceContext;
+
 /// A vertex quantity, padded to 32 bytes so that a vertex never straddles a cache line.
 struct alignas(32) VertexRecord {
   double x = 0, y = 0, z = 0, w = 0;
@@ -63,6 +66,14 @@ class ForceField {
   /// Does any force read velocities, or the clock (time, dt, step)?
   [[nodiscard]] virtual bool reads_velocity() const = 0;
   [[nodiscard]] virtual bool reads_time() const = 0;
+
+  // What criteria read; a field without a context keeps no forces of single matches.
+  [[nodiscard]] virtual const ForceContext* context() const { return nullptr; }
+  /// Appends every internal atomic force, in the canonical order.
+  virtual void list_atomic(std::vector<AtomicForce>&) const {}
+  /// The forces of single matches on vertices (N), as the last evaluate() left them.
+  [[nodiscard]] virtual std::span<const VertexRecord> atomic_slots() const { return {}; }
+
   /// Takes over changed topology and values; `touched` as in Effects.
   virtual void refresh(std::span<const DartId> touched) = 0;
   [[nodiscard]] virtual const std::optional<support::Diagnostic>& error() const = 0;

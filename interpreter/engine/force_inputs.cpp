@@ -29,16 +29,22 @@ ShapeInputs::ShapeInputs(const ForceContext& context, const compile::Shape& shap
   const std::vector<std::uint32_t> widths = input_widths(shape);
   for (std::size_t k = 0; k < widths.size(); ++k)
     origins_.push_back(widths[k] == 0 ? InputOrigin{.width = 0}
-                                      : origin(shape.graph.inputs()[k], widths[k]));
+                                      : origin(shape, shape.graph.inputs()[k], widths[k]));
 }
 
-InputOrigin ShapeInputs::origin(const ir::Input& input, std::uint32_t width) {
+InputOrigin ShapeInputs::origin(const compile::Shape& shape, const ir::Input& input,
+                                std::uint32_t width) {
   using Kind = InputOrigin::Kind;
   switch (input.source) {
     case ir::Input::Source::Embedding: return embedding_origin(input, width);
     case ir::Input::Source::MatchValue: return {.kind = Kind::Own, .offset = input.role};
     case ir::Input::Source::ForceOn:
-    case ir::Input::Source::AtomicForce: break;  // no force depends on forces
+      return {.kind = Kind::ForceOn, .role = input.role, .offset = input.offset, .width = width,
+              .embedding = {}, .orbit = shape.roles[input.role]};
+    case ir::Input::Source::AtomicForce:  // columns of their own, behind those of the roles
+      return {.kind = Kind::AtomicForce,
+              .role = static_cast<std::uint32_t>(shape.roles.size()) + input.role,
+              .width = width};
     case ir::Input::Source::Time: return {.kind = Kind::Time};
     case ir::Input::Source::Dt: return {.kind = Kind::Dt};
     case ir::Input::Source::Step: return {.kind = Kind::Step};

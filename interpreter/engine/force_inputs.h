@@ -21,6 +21,8 @@ struct InputOrigin {
     VelocityChange,
     Column,          ///< `embedding` at the orbit `role`, from double `offset` on
     Own,             ///< the match's own numbers from `offset` on
+    ForceOn,         ///< sum of atomic forces on the orbit `role`, of interaction `offset` - 1 or (0) all, N
+    AtomicForce,     ///< the one in column `role` of the match, N
     Time,            ///< s
     Dt,
     Step
@@ -30,6 +32,7 @@ struct InputOrigin {
   std::uint32_t offset = 0;
   std::uint32_t width = 1;  ///< doubles
   EmbeddingId embedding{};
+  types::OrbitType orbit = {};  ///< ForceOn: of the role
 };
 
 /// The inputs of a shape's graph.
@@ -56,7 +59,8 @@ class ShapeInputs {
     std::uint32_t offset = 0;
     std::uint32_t width = 0;
   };
-  InputOrigin origin(const compile::ir::Input& input, std::uint32_t width);
+  InputOrigin origin(const compile::Shape& shape, const compile::ir::Input& input,
+                     std::uint32_t width);
   InputOrigin embedding_origin(const compile::ir::Input& input, std::uint32_t width);
   std::uint32_t derived_at(EmbeddingId embedding, std::uint32_t role);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/force_readings.h"
 #include "support/check.h"
 
 namespace gmsim::engine {
@@ -49,6 +50,11 @@ InputBinding ForceKernel::binding(const InputOrigin& origin, const MatchTable& t
       const MatchTable::OwnColumn own = table.own(origin.offset);
       return {own.begin, own.stride, nullptr, true};
     }
+    case Kind::ForceOn: {
+      const OrbitForces* sum = moment.forces->find(origin.orbit, origin.offset);
+      return {numbers(sum->values()), kRecord, table.rows(origin.role).data(), true};
+    }
+    case Kind::AtomicForce: return vertex(moment.forces->atomic);
     case Kind::Time: return {&moment.time};
     case Kind::Dt: return {&moment.dt};
     case Kind::Step: return {&moment.step};

@@ -4,16 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "gmap/orbit_walk.h"
 
 namespace gmsim::engine {
 
 ForceMatches::ForceMatches(const ForceContext& context, std::uint32_t number)
+    : ForceMatches(context, context.pattern(number), context.world, context.body(number),
+                   compile::wanted_forces(context.body(number), true), context.sources) {}
+
+ForceMatches::ForceMatches(const ForceContext& context, const compile::RootedPattern& pattern,
+                           const compile::World& world, const compile::ItemBody& body,
+                           compile::Wanted wanted, const compile::ValueSources& sources)
     : context_(context),
-      pattern_(context.pattern(number)),
-      shapes_(context.world, context.body(number),
-              compile::wanted_forces(context.body(number), true), context.sources),
+      pattern_(pattern),
+      shapes_(world, body, std::move(wanted), sources),
       matcher_(context.state),
       reader_(context.state) {}
 

@@ -30,6 +30,10 @@ class ForceMatches {
   using Visit = std::function<void(const ForceMatch&)>;
 
   ForceMatches(const ForceContext& context, std::uint32_t number);
+  /// The matches of any item. Everything given must outlive this.
+  ForceMatches(const ForceContext& context, const compile::RootedPattern& pattern,
+               const compile::World& world, const compile::ItemBody& body, compile::Wanted wanted,
+               const compile::ValueSources& sources);
 
   /// All matches, ascending by key. Stops at the first error and returns it.
   std::optional<support::Diagnostic> find_all(const Visit& visit);

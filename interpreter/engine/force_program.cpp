@@ -88,6 +88,16 @@ ForceProgram force_program(const compile::Shape& shape, const ShapeInputs& input
   return program;
 }
 
+ForceProgram values_program(const compile::Shape& shape, const ShapeInputs& inputs,
+                            std::size_t first, std::size_t count) {
+  ForceProgram program{.graph = shape.graph, .roots = {}, .inputs = {}};
+  for (std::size_t k = first; k < first + count; ++k)
+    for (const NodeId part : shape.values[k])
+      program.roots.push_back(where_it_holds(program.graph, shape, part));
+  list_inputs(program, inputs.origins());
+  return program;
+}
+
 ForceProgram energy_program(const compile::Shape& shape, const ShapeInputs& inputs) {
   ForceProgram program{.graph = shape.graph, .roots = {}, .inputs = {}};
   if (shape.energy == ir::kNone) return program;

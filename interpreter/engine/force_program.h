@@ -12,6 +12,8 @@
 
 namespace gmsim::engine {
 
+struct ForceReadings;
+
 /// What an evaluation depends on besides the store: rows of the vertex index.
 struct ForceMoment {
   std::span<const VertexRecord> position;          ///< m
@@ -21,6 +23,7 @@ struct ForceMoment {
   double time = 0;  ///< s
   double dt = 0;    ///< s
   double step = 0;  ///< steps completed
+  const ForceReadings* forces = nullptr;  ///< what criteria and fields read
 };
 
 /// Something to compute of every match of a shape: a graph, its roots, and where the inputs that
@@ -41,6 +44,9 @@ struct ForceProgram {
 
 /// The force on each vertex of Shape::forces, in order (N).
 [[nodiscard]] ForceProgram force_program(const compile::Shape& shape, const ShapeInputs& inputs);
+/// The parts of the values number first .. first + count - 1 of a shape, one after another.
+[[nodiscard]] ForceProgram values_program(const compile::Shape& shape, const ShapeInputs& inputs,
+                                          std::size_t first, std::size_t count);
 /// One root, the energy (J); no root when the shape has none.
 [[nodiscard]] ForceProgram energy_program(const compile::Shape& shape, const ShapeInputs& inputs);
 /// The derivative of each root of a force program along a change of all positions and velocities,

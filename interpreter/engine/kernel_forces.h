@@ -33,6 +33,9 @@ class KernelForces final : public ForceField {
   }
   [[nodiscard]] bool reads_time() const override;
   void refresh(std::span<const DartId> touched) override;
+  [[nodiscard]] const ForceContext* context() const override { return &context_; }
+  void list_atomic(std::vector<AtomicForce>& out) const override;
+  [[nodiscard]] std::span<const VertexRecord> atomic_slots() const override { return forces_; }
   [[nodiscard]] const std::optional<support::Diagnostic>& error() const override { return error_; }
   [[nodiscard]] std::string explain() const override;
 

@@ -31,8 +31,10 @@ void MatchTable::add_own(std::span<const double> numbers) {
 
 std::uint32_t MatchTable::add(const ForceMatch& match) {
   keys_.push_back(match.key);
+  const std::size_t orbits = match.roles.roles.size();
   for (std::uint32_t role = 0; role < widths_.roles; ++role)
-    rows_[role].push_back(match.roles.roles[role].row);
+    rows_[role].push_back(role < orbits ? match.roles.roles[role].row
+                                        : match.roles.atomic[role - orbits]);
   add_own(match.own);
   nodes_.insert(nodes_.end(), match.nodes.begin(), match.nodes.end());
   targets_.insert(targets_.end(), match.roles.targets.begin(), match.roles.targets.end());

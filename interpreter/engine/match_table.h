@@ -14,7 +14,8 @@ namespace gmsim::engine {
 class MatchTable {
  public:
   struct Widths {
-    std::uint32_t roles = 0, nodes = 0, targets = 0;
+    std::uint32_t roles = 0;  ///< and behind them the atomic forces that a match goes through
+    std::uint32_t nodes = 0, targets = 0;
     std::vector<std::uint32_t> own;  ///< doubles of each value that matches know themselves
   };
   explicit MatchTable(Widths widths);

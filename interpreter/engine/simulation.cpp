@@ -46,6 +46,10 @@ void Simulation::sync() { implementation_->sync(); }
 bool Simulation::refresh(std::span<const DartId> touched, support::Diagnostics& diagnostics) {
   return implementation_->refresh(touched, diagnostics);
 }
+std::optional<std::vector<Simulation::CriterionReport>> Simulation::survey(
+    support::Diagnostics& diagnostics) {
+  return implementation_->survey(diagnostics);
+}
 std::uint64_t Simulation::state_hash() const { return implementation_->state_hash(); }
 std::string Simulation::explain() const { return implementation_->explain(); }
 

@@ -14,6 +14,7 @@
 #include "engine/model.h"
 #include "engine/stability_limit.h"
 #include "engine/state.h"
+#include "engine/tearing.h"
 #include "support/diagnostic.h"
 #include "support/trace.h"
 
@@ -35,6 +36,9 @@ struct StepReport {
   std::uint32_t evaluations = 0;   ///< of all forces
   std::uint32_t rejected = 0;      ///< adaptive: steps tried and thrown away
   bool at_stability_limit = false; ///< adaptive: the limit, not the error, set the length
+  std::vector<TearEvent> events;   ///< what tore at its end
+  std::uint64_t dropped = 0;       ///< changes that criteria asked for and that did not fit any more
+  bool map_changed = false;
 };
 
 struct SimulationOptions {
@@ -84,6 +88,16 @@ class Simulation {
   /// Takes over a state whose map or values were rewritten after sync(); `touched` as in Effects.
   /// False after an error.
   bool refresh(std::span<const DartId> touched, support::Diagnostics& diagnostics);
+  /// What each line of `tear:` saw at the end of the last step.
+  struct CriterionReport {
+    std::uint32_t pairing = 0;
+    std::uint32_t matches = 0;
+    double value = 0, threshold = 0;   ///< of the match nearest to tearing
+    DartId where = gmap::kNoDart;
+    std::vector<double> ratios;        ///< value over threshold of all matches
+  };
+  /// Judges all criteria on the state as it is, and changes nothing.
+  std::optional<std::vector<CriterionReport>> survey(support::Diagnostics& diagnostics);
   /// A hash of positions, velocities and the clock, bit by bit.
   [[nodiscard]] std::uint64_t state_hash() const;
   /// The plan as text: `gmsim explain`.

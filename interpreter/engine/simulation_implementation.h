@@ -13,6 +13,7 @@
 #include "engine/integrators/phase_point.h"
 #include "engine/integrators/prescribed_motion.h"
 #include "engine/integrators/step_control.h"
+#include "engine/map_changes.h"
 #include "engine/simulation.h"
 #include "engine/stability.h"
 
@@ -29,6 +30,9 @@ class Simulation::Implementation {
 
   // simulation_step.cpp
   std::optional<StepReport> step(double until, support::Diagnostics& diagnostics);
+
+  // simulation_map.cpp
+  std::optional<std::vector<CriterionReport>> survey(support::Diagnostics& diagnostics);
 
   // simulation_report.cpp
   void dense_positions(double time, std::vector<double>& out) const;
@@ -68,6 +72,11 @@ class Simulation::Implementation {
   /// Null when the step may count.
   [[nodiscard]] std::optional<support::Diagnostic> objection(double dt);
 
+  // simulation_map.cpp
+  /// The end of a step: what rules do to the map, and what follows for forces and masses.
+  bool change_map(StepReport& report, support::Diagnostics& diagnostics);
+  bool adopt_map(std::span<const DartId> touched, support::Diagnostics& diagnostics);
+
   // simulation_problems.cpp
   [[nodiscard]] support::Diagnostic above_limit(double dt) const;
   [[nodiscard]] support::Diagnostic diverged(double dt, const std::string& what, Row row) const;
@@ -102,6 +111,8 @@ class Simulation::Implementation {
   EdgeLengths edges_;
   Guard guard_;
   StabilityLimit limit_;
+
+  std::unique_ptr<MapChanges> changes_;  // null when nothing changes the map
 
   PhasePoint now_, next_;        // next_ is the point before now_ between steps
   Tolerance tolerance_;          // of methods that choose their step

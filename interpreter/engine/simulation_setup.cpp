@@ -54,6 +54,18 @@ bool Simulation::Implementation::prepare(support::Diagnostics& diagnostics) {
   }
   if (!find_limit(diagnostics) || !choose_step(diagnostics) || !first_forces(diagnostics))
     return false;
+  if (!model_.tears.empty() || !model_.rewrites.empty()) {
+    if (forces_->context() == nullptr) {
+      diagnostics.report({support::DiagnosticKind::NotAvailable,
+                          "nothing can tear while forces are evaluated one match at a time"});
+      return false;
+    }
+    changes_ = std::make_unique<MapChanges>(state_, model_, *forces_);
+    if (auto problem = changes_->rebuild()) {
+      diagnostics.report(std::move(*problem));
+      return false;
+    }
+  }
   for (support::Diagnostic& notice : forces_->notices(now_.motion, now_.time))
     diagnostics.report(std::move(notice));
   return !info_->adaptive || choose_first_step(diagnostics);

@@ -33,6 +33,7 @@ std::optional<StepReport> Simulation::Implementation::step(double until,
   if (options_.trace != nullptr && options_.trace->wants(support::TracePhase::Step, ""))
     options_.trace->line(support::TracePhase::Step, "",
                          fmt::format("{:>7}  t={:.9g}  dt={:.9g}", steps_, now_.time, report.dt));
+  if (changes_ && !change_map(report, diagnostics)) return std::nullopt;
   if (!review(report.dt, diagnostics)) return std::nullopt;
   return report;
 }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "engine/criteria.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "engine/force_context.h"
+
+namespace gmsim::engine {
+
+Criteria::Criteria(State& state, const ForceField& forces, std::span<const TearPairing> pairings)
+    : state_(state),
+      forces_(forces),
+      atomic_(state.map),
+      world_(forces.context()->world),
+      evaluator_(state) {
+  world_.atomic_forces = &atomic_;
+  for (std::uint32_t i = 0; i < pairings.size(); ++i) {
+    const compile::CriterionBody& body = state.program.criterion_bodies[pairings[i].criterion];
+    for (const types::OrbitType orbit : force_reads(body, state.program.schema).orbits)
+      state.store.use_index(orbit);
+    fields_.push_back(std::make_unique<CriterionField>(*forces.context(), world_, pairings[i], i));
+  }
+}
+
+Criteria::Diagnostic Criteria::rebuild() {
+  listed_.clear();
+  forces_.list_atomic(listed_);
+  atomic_.rebuild(listed_);
+  one_by_one_ = false;
+  for (const auto& field : fields_) {
+    if (Diagnostic error = field->rebuild()) return error;
+    field->add_sums(readings_);
+    one_by_one_ = one_by_one_ || field->reads_forces_one_by_one();
+  }
+  for (const auto& sum : readings_.sums)
+    sum->rebuild(atomic_, *state_.store.find_index(sum->orbit()));
+  return std::nullopt;
+}
+
+void Criteria::read_forces_now() {
+  const std::span<const VertexRecord> slots = forces_.atomic_slots();
+  for (const auto& sum : readings_.sums) sum->sum(slots);
+  if (one_by_one_) atomic_.read(slots, readings_.atomic);
+}
+
+Criteria::Diagnostic Criteria::judge(const Motion& motion, double time, double dt,
+                                     std::vector<TearRequest>& requests) {
+  read_forces_now();
+  const ForceMoment moment{.position = motion.position, .velocity = motion.velocity, .time = time,
+                           .dt = dt, .step = static_cast<double>(state_.step),
+                           .forces = &readings_};
+  std::vector<TearRequest> of_field;
+  for (const auto& field : fields_) {
+    if (time < field->pairing().after) continue;
+    of_field.clear();
+    if (Diagnostic error = field->judge(moment, of_field)) return error;
+    if (Diagnostic error = select(*field, of_field)) return error;
+    std::move(of_field.begin(), of_field.end(), std::back_inserter(requests));
+  }
+  order_requests(requests);
+  return std::nullopt;
+}
+
+Criteria::Diagnostic Criteria::select(const CriterionField& field,
+                                      std::vector<TearRequest>& requests) {
+  const TearPairing& pairing = field.pairing();
+  Diagnostic error;
+  if (pairing.where)
+    std::erase_if(requests, [&](const TearRequest& request) {
+      Frame frame(pairing.where->frame_size);
+      frame.set(pairing.where->dart, request.hook);
+      bool allowed = false;
+      if (!error && !evaluator_.evaluate_bool(*pairing.where->value, frame, allowed)) {
+        EvalFailure failure = evaluator_.take_failure();
+        if (!failure.missing_optional) error = std::move(failure.diagnostic);
+      }
+      return !allowed;
+    });
+  choose_strongest(requests, pairing.at_most);
+  if (pairing.at.empty()) return error;
+  std::vector<TearRequest> at_nodes;
+  for (const TearRequest& request : requests)
+    for (const std::uint32_t node : pairing.at) {
+      at_nodes.push_back(request);
+      at_nodes.back().node = node;
+    }
+  requests = std::move(at_nodes);
+  return error;
+}
+
+}  // namespace gmsim::engine

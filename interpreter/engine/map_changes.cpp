@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "engine/map_changes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "gmap/orbit_walk.h"
+
+namespace gmsim::engine {
+
+MapChanges::MapChanges(State& state, const Model& model, const ForceField& forces)
+    : state_(state),
+      model_(model),
+      criteria_(state, forces, model.tears),
+      rewriter_(state),
+      runner_(rewriter_),
+      tearing_(rewriter_, model.tears),
+      evaluator_(state) {
+  rewriter_.on_created([this](Rewriter& rewriter, EmbeddingId presence, DartId smallest) {
+    return carry(rewriter, presence, smallest);
+  });
+  const OrbitType vertex = OrbitType::cell(0, state.map.dimension());
+  for (const Hold& hold : model.holds) {
+    holds_.emplace_back();
+    gmap::for_each_dart(state.map, vertex, hold.vertex,
+                        [&](DartId d) { holds_.back().push_back(d); });
+  }
+}
+
+MapChanges::Diagnostic MapChanges::carry(Rewriter& rewriter, EmbeddingId presence,
+                                         DartId smallest) {
+  const auto& bodies = state_.program.interaction_bodies;
+  const auto active = std::find_if(
+      model_.interactions.begin(), model_.interactions.end(),
+      [&](const ActiveInteraction& a) { return bodies[a.interaction].presence == presence; });
+  if (active == model_.interactions.end()) return std::nullopt;
+  const double yes = 1;
+  rewriter.set_value(presence, smallest, {&yes, 1});
+  for (const ParameterBinding& parameter : active->parameters) {
+    if (parameter.kind != ParameterBinding::Kind::Stored) continue;
+    if (!state_.store.get(parameter.embedding, smallest).empty()) continue;  // the rule's own value
+    const gmap::EmbeddingDecl& decl = state_.program.schema[parameter.embedding];
+    if (!parameter.expression.value)
+      return support::Diagnostic{
+          support::DiagnosticKind::MissingEmbeddingValue,
+          fmt::format("the rule makes a new {} orbit, for which nothing gives `{}`",
+                      types::to_string(decl.orbit), decl.name),
+          active->span};
+    Frame frame(parameter.expression.frame_size);
+    frame.set(parameter.expression.dart, smallest);
+    std::vector<double> value(types::component_count(decl.type));
+    if (!evaluator_.evaluate(*parameter.expression.value, frame, value))
+      return evaluator_.take_failure().diagnostic;
+    rewriter.set_value(parameter.embedding, smallest, value);
+  }
+  return std::nullopt;
+}
+
+// ---- rewrites of every step ---------------------------------------------------------------------
+
+MapChanges::Diagnostic MapChanges::rewrite(Effects& effects) {
+  for (const StandingRewrite& rewrite : model_.rewrites)
+    if (Diagnostic error = run_rewrite(rewrite, effects)) return error;
+  release_holds(effects);
+  return std::nullopt;
+}
+
+MapChanges::Diagnostic MapChanges::run_rewrite(const StandingRewrite& rewrite, Effects& effects) {
+  std::vector<DartId> darts;
+  Arguments arguments;
+  if (Diagnostic error = find_candidates(rewrite, darts)) return error;
+  if (Diagnostic error = evaluate_arguments(rewrite, arguments)) return error;
+  RewriteOutcome outcome;
+  if (rewrite.change.operation) {
+    outcome = runner_.run_each(state_.program.operations[rewrite.change.target], darts, arguments);
+  } else {
+    const compile::Rule& rule = state_.program.rules[rewrite.change.target];
+    outcome = rule.rewrite.changes.empty() ? rewriter_.apply_at_once(rule, darts, arguments)
+                                           : rewriter_.apply_each(rule, darts, arguments);
+  }
+  effects.append(outcome.effects);
+  return std::move(outcome.error);
+}
+
+MapChanges::Diagnostic MapChanges::find_candidates(const StandingRewrite& rewrite,
+                                                   std::vector<DartId>& darts) {
+  for (const DartId dart : gmap::all_orbits(state_.map, rewrite.to)) {
+    if (rewrite.where) {
+      Frame frame(rewrite.where->frame_size);
+      frame.set(rewrite.where->dart, dart);
+      bool wanted = false;
+      if (!evaluator_.evaluate_bool(*rewrite.where->value, frame, wanted)) {
+        EvalFailure failure = evaluator_.take_failure();
+        if (!failure.missing_optional) return std::move(failure.diagnostic);
+      }
+      if (!wanted) continue;
+    }
+    darts.push_back(dart);
+  }
+  return std::nullopt;
+}
+
+MapChanges::Diagnostic MapChanges::evaluate_arguments(const StandingRewrite& rewrite,
+                                                      Arguments& arguments) {
+  for (const SlotValue& parameter : rewrite.parameters) {
+    Frame frame(parameter.value.frame_size);
+    std::optional<types::Value> value = evaluator_.evaluate(*parameter.value.value, frame);
+    if (!value) return evaluator_.take_failure().diagnostic;
+    arguments.emplace_back(parameter.slot, std::move(*value));
+  }
+  return std::nullopt;
+}
+
+// ---- tearing ------------------------------------------------------------------------------------
+
+MapChanges::Diagnostic MapChanges::tear(const Motion& motion, double time, double dt,
+                                        const std::function<void()>& sync, TearOutcome& outcome) {
+  const bool reads_store = std::any_of(model_.tears.begin(), model_.tears.end(),
+                                       [](const TearPairing& p) { return p.where.has_value(); });
+  if (reads_store) sync();
+  requests_.clear();
+  if (Diagnostic error = criteria_.judge(motion, time, dt, requests_)) return error;
+  if (requests_.empty()) return std::nullopt;
+  if (!reads_store) sync();
+  tearing_.apply(requests_, outcome);
+  release_holds(outcome.effects);
+  return std::move(outcome.error);
+}
+
+void MapChanges::release_holds(const Effects& effects) {
+  if (holds_.empty() || effects.touched.empty()) return;
+  const auto fixed = state_.program.schema.find("fixed");
+  const OrbitType vertex = OrbitType::cell(0, state_.map.dimension());
+  const double no = 0;
+  for (std::size_t i = 0; i < holds_.size(); ++i) {
+    std::vector<DartId>& darts = holds_[i];
+    std::erase_if(darts, [&](DartId d) { return !state_.map.alive(d); });
+    std::vector<DartId> parts;
+    for (const DartId d : darts) {
+      const DartId part = gmap::smallest_dart(state_.map, vertex, d);
+      if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
+    }
+    if (parts.size() < 2) continue;
+    std::sort(parts.begin(), parts.end());
+    const bool keep_first = model_.holds[i].on_split == OnSplit::KeepFirst;
+    for (std::size_t k = keep_first ? 1 : 0; k < parts.size(); ++k)
+      state_.store.set(*fixed, parts[k], {&no, 1});
+    if (!keep_first) {
+      darts.clear();
+      continue;
+    }
+    std::erase_if(darts, [&](DartId d) {
+      return gmap::smallest_dart(state_.map, vertex, d) != parts.front();
+    });
+  }
+}
+
+}  // namespace gmsim::engine

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/criteria.h"
+#include "engine/model.h"
+#include "engine/tearing.h"
+
+namespace gmsim::engine {
+
+/// What happens to the map at the end of a step: the rewrites of every step, then what criteria ask for.
+class MapChanges {
+ public:
+  using Diagnostic = std::optional<support::Diagnostic>;
+
+  MapChanges(State& state, const Model& model, const ForceField& forces);
+
+  /// Finds the matches of all criteria anew: at the start and after every change of the map.
+  Diagnostic rebuild() { return criteria_.rebuild(); }
+
+  /// Applies the rewrites of every step; the store must be in step with the motion. Nothing touched
+  /// and nothing written: false in `changed`.
+  Diagnostic rewrite(Effects& effects);
+  [[nodiscard]] bool has_rewrites() const { return !model_.rewrites.empty(); }
+  [[nodiscard]] bool has_criteria() const { return !model_.tears.empty(); }
+  [[nodiscard]] bool read_forces() const { return criteria_.read_forces(); }
+
+  /// Judges all criteria, which the last evaluation of forces must have been for, and applies what
+  /// they ask for. `sync` puts the motion into the store; it is called before anything reads that.
+  Diagnostic tear(const Motion& motion, double time, double dt, const std::function<void()>& sync,
+                  TearOutcome& outcome);
+
+  [[nodiscard]] const Criteria& criteria() const { return criteria_; }
+  [[nodiscard]] Criteria& criteria() { return criteria_; }
+
+ private:
+  Diagnostic run_rewrite(const StandingRewrite& rewrite, Effects& effects);
+  /// Darts at which a rewrite is tried: one for each orbit of `to` that `where` allows.
+  Diagnostic find_candidates(const StandingRewrite& rewrite, std::vector<DartId>& darts);
+  Diagnostic evaluate_arguments(const StandingRewrite& rewrite, Arguments& arguments);
+  /// A new orbit that can carry an interaction gets it, with the scene's parameters.
+  Diagnostic carry(Rewriter& rewriter, EmbeddingId presence, DartId smallest);
+  /// Holds that do not pass to all parts of a split vertex.
+  void release_holds(const Effects& effects);
+
+  State& state_;
+  const Model& model_;
+  Criteria criteria_;
+  Rewriter rewriter_;
+  OperationRunner runner_;
+  Tearing tearing_;
+  TreeEvaluator evaluator_;
+  std::vector<std::vector<DartId>> holds_;  // darts of the vertex of each of model_.holds
+  std::vector<TearRequest> requests_;
+};
+
+}  // namespace gmsim::engine
