@@ -14,7 +14,7 @@ build_packages=(
 test_packages=(doctest-dev python3 python3-venv)
 
 # Folders of tests that read hostile text; they run once more under ASan and UBSan.
-front_end=(tests/unit/support tests/unit/types tests/unit/syntax tests/unit/check tests/fuzz)
+front_end=(tests/unit/syntax tests/unit/check tests/fuzz)
 
 usage() {
   cat <<'END'
