@@ -12,6 +12,7 @@
 #include "cli/run_output.h"
 #include "cli/scene_session.h"
 #include "engine/integrators.h"
+#include "gmap/orbit_walk.h"
 
 namespace gmsim::cli {
 namespace {
@@ -71,7 +72,10 @@ class RunJob {
   }
 
   [[nodiscard]] engine::StepReport first_report() const {
-    return {.time = simulation_->time(), .dt = simulation_->dt()};
+    engine::StepReport report;
+    report.time = simulation_->time();
+    report.dt = simulation_->dt();
+    return report;
   }
 
   /// Steps until the end, or until something happens.
@@ -81,6 +85,9 @@ class RunJob {
       const auto step =
           simulation_->step(next_stop(*scene_, simulation_->time()), session_.diagnostics);
       if (!step) return RunEnding::Stopped;
+      if (output_) output_->note(*step);
+      tears_ += step->events.size();
+      dropped_ += step->dropped;
       report_step(*step);
       if (!write_due_frames(*step)) return failure();
       if (watch.interrupted()) return RunEnding::Interrupted;
@@ -167,6 +174,13 @@ class RunJob {
   void summarise(RunEnding ending) {
     RunSummary summary{progress(), ending, simulation_->evaluations(), simulation_->state_hash(),
                        {}};
+    if (!scene_->tears.empty() || !scene_->rewrites.empty()) {
+      const gmap::GMap& map = scene_->state->map;
+      summary.tears = tears_;
+      summary.dropped = dropped_;
+      summary.parts =
+          gmap::all_orbits(map, types::OrbitType::range(0, map.dimension())).size();
+    }
     summary.progress.wall = stepping_;
     if (output_)
       summary.file = (ending == RunEnding::WriteFailed ? io::part_path(file_) : file_).string();
@@ -182,6 +196,7 @@ class RunJob {
   std::unique_ptr<RunOutput> output_;
   std::filesystem::path file_;
   Clock::time_point begin_;
+  std::uint64_t tears_ = 0, dropped_ = 0;
   double stepping_ = 0;  // s of wall time between the first step and the last
   bool is_adaptive_ = false;
 };

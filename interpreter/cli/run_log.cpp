@@ -121,6 +121,10 @@ class TextLog : public RunLog {
       out_ << fmt::format(" ({:.4g} steps/s, {:.3g} times real time)",
                           static_cast<double>(at.steps) / at.wall, at.time / at.wall);
     out_ << fmt::format(", max elongation {:.4g}\n", at.max_elongation);
+    if (summary.parts)
+      out_ << fmt::format("{}, {} dropped; {} at the end\n",
+                          counted(summary.tears, "tear", "tears"), summary.dropped,
+                          counted(*summary.parts, "part", "parts"));
     if (!summary.file.empty())
       out_ << fmt::format("wrote {}: {}, state {:016x}\n", summary.file,
                           counted(static_cast<std::size_t>(at.frames), "frame", "frames"),

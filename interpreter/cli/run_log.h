@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/simulation.h"
@@ -37,6 +38,10 @@ struct RunSummary {
   std::uint64_t evaluations = 0;
   std::uint64_t state_hash = 0;
   std::string file;                ///< empty: nothing was written
+  // Of scenes that change their map.
+  std::uint64_t tears = 0;         ///< changes that criteria asked for
+  std::uint64_t dropped = 0;       ///< asked for, but their place had changed by then
+  std::optional<std::size_t> parts = std::nullopt;  ///< connected pieces at the end
 };
 
 /// What a run says about itself.

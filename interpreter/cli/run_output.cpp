@@ -103,7 +103,13 @@ FrameColumn body_column(const scene::Scene& scene, OrbitType cell) {
   return {{"body", 1, io::FieldPlace::Cell, NumberType::Int32, "", "", ""},
           cell,
           [&scene, body_of_point](engine::TreeEvaluator&, DartId dart, std::span<double> out) {
-            out[0] = body_of_point[scene.dart_point[types::index(dart)]];
+            // A dart that a rule made belongs where the oldest dart of its piece does.
+            const gmap::GMap& map = scene.state->map;
+            if (types::index(dart) >= scene.dart_point.size())
+              dart = gmap::smallest_dart(map, OrbitType::range(0, map.dimension()), dart);
+            out[0] = types::index(dart) < scene.dart_point.size()
+                         ? body_of_point[scene.dart_point[types::index(dart)]]
+                         : -1;
             return true;
           }};
 }
@@ -128,6 +134,7 @@ std::unique_ptr<RunOutput> RunOutput::create(const scene::Scene& scene,
                                              support::Diagnostics& diagnostics) {
   std::unique_ptr<RunOutput> output(new RunOutput(scene));
   output->make_mesh();
+  output->links_ = links_of(scene.state->map);
   output->make_columns();
   output->writer_ =
       io::TrajectoryWriter::create(options.path, output->describe(sources, options),
@@ -183,7 +190,13 @@ io::RunDescription RunOutput::describe(const support::SourceMap& sources,
   for (const FrameColumn& column : columns_) run.fields.push_back(column.description());
   run.series = series();
   run.polyhedra = mesh_.mesh.topology.has_polyhedra();
-  run.alpha = links_of(scene_.state->map);
+  run.alpha = links_;
+  for (const engine::TearPairing& tear : scene_.tears) {
+    const auto& program = scene_.program;
+    run.criterion_names.push_back(program.criteria[tear.criterion].name);
+    run.rule_names.push_back(tear.change.operation ? program.operations[tear.change.target].name
+                                                   : program.rules[tear.change.target].name);
+  }
   run.expected_points = mesh_.mesh.points.size();
   run.expected_cells = mesh_.mesh.topology.cell_count();
   return run;
@@ -196,7 +209,47 @@ std::span<const DartId> RunOutput::darts_of(const FrameColumn& column) {
   return orbit_darts_;
 }
 
+void RunOutput::note(const engine::StepReport& step) {
+  map_changed_ = map_changed_ || step.map_changed;
+  for (const engine::TearEvent& event : step.events) {
+    io::TearEvent row{.step = static_cast<std::int64_t>(event.step), .time = event.time,
+                      .rule = static_cast<std::int32_t>(event.pairing),
+                      .criterion = static_cast<std::int32_t>(event.pairing), .value = event.value,
+                      .threshold = event.threshold,
+                      .dart = static_cast<std::int32_t>(types::index(event.dart)),
+                      .position = event.position,
+                      .new_vertices = static_cast<std::int32_t>(event.split + event.created),
+                      .cells = {}};
+    row.cells.push_back(row.dart);
+    events_.push_back(std::move(row));
+  }
+}
+
+io::NewTopology RunOutput::take_topology() {
+  const gmap::GMap& map = scene_.state->map;
+  const std::size_t width = static_cast<std::size_t>(map.dimension()) + 1;
+  changes_.clear();
+  if (frames_ > 0) {
+    numbering_.update(vertices_);
+    make_mesh();
+    const std::vector<std::int32_t> links = links_of(map);
+    links_.resize(links.size(), -1);
+    for (std::size_t d = 0; d < links.size() / width; ++d) {
+      const auto now = links.begin() + static_cast<std::ptrdiff_t>(d * width);
+      const auto then = links_.begin() + static_cast<std::ptrdiff_t>(d * width);
+      if (std::equal(now, now + static_cast<std::ptrdiff_t>(width), then)) continue;
+      changes_.push_back(static_cast<std::int32_t>(d));
+      changes_.insert(changes_.end(), now, now + static_cast<std::ptrdiff_t>(width));
+    }
+    links_ = links;
+  }
+  map_changed_ = false;
+  return {&mesh_.mesh.topology, map.dart_end(), changes_};
+}
+
 bool RunOutput::write_state(double time, std::int64_t step, support::Diagnostics& diagnostics) {
+  std::optional<io::NewTopology> topology;
+  if (frames_ == 0 || map_changed_) topology = take_topology();
   const auto& position = scene_.state->store.column(position_);
   const auto rows = numbering_.rows();
   for (std::size_t point = 0; point < rows.size(); ++point) {
@@ -214,9 +267,10 @@ bool RunOutput::write_state(double time, std::int64_t step, support::Diagnostics
   frame.step = step;
   frame.points = mesh_.mesh.points;
   frame.fields = fields;
-  if (frames_ == 0)
-    frame.topology = io::NewTopology{&mesh_.mesh.topology, scene_.state->map.dart_end(), {}};
+  frame.topology = topology;
+  frame.events = events_;
   if (!writer_->write_frame(frame, diagnostics)) return false;
+  events_.clear();
   ++frames_;
   last_time_ = time;
   return true;

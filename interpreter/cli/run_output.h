@@ -45,6 +45,8 @@ class RunOutput {
   /// Writes the state at a time within the last step of an adaptive method.
   bool write_frame_at(double time, const engine::StepReport& step,
                       engine::Simulation& simulation, support::Diagnostics& diagnostics);
+  /// Takes note of what a step did to the map, for the next frame.
+  void note(const engine::StepReport& step);
   void add_report(const RunReport& report, const engine::Simulation& simulation);
   bool close(std::uint64_t state_hash, std::string_view ending, support::Diagnostics& diagnostics);
 
@@ -57,6 +59,8 @@ class RunOutput {
   void make_mesh();
   [[nodiscard]] io::RunDescription describe(const support::SourceMap& sources,
                                             const Options& options) const;
+  /// The new mesh and the darts whose links changed, after the map has changed.
+  io::NewTopology take_topology();
   bool write_state(double time, std::int64_t step, support::Diagnostics& diagnostics);
   [[nodiscard]] std::span<const engine::DartId> darts_of(const FrameColumn& column);
 
@@ -68,6 +72,10 @@ class RunOutput {
   std::vector<FrameColumn> columns_;
   std::vector<engine::DartId> orbit_darts_;
   std::unique_ptr<io::TrajectoryWriter> writer_;
+  std::vector<std::int32_t> links_;    // of all darts, as the file has them
+  std::vector<std::int32_t> changes_;  // as in NewTopology
+  std::vector<io::TearEvent> events_;  // since the last frame
+  bool map_changed_ = false;
   std::int64_t frames_ = 0;
   double last_time_ = 0;
 };

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "cli/scene_session.h"
 
-#include <fmt/format.h>
+#include "gmap/orbit_walk.h"
 
 namespace gmsim::cli {
 namespace {
 
-/// What a scene may say and a run cannot do yet.
-bool is_supported(Session& session, const scene::Scene& scene) {
-  const auto refuse = [&](const support::Span& place, const char* key) {
-    session.diagnostics.report({.kind = support::DiagnosticKind::Usage,
-                                .message = fmt::format("`{}` is not supported yet", key),
-                                .place = place,
-                                .help = "leave it out to run the scene without it"});
-  };
-  for (const engine::TearPairing& tear : scene.tears) refuse(tear.span, "tear");
-  for (const engine::StandingRewrite& rewrite : scene.rewrites) refuse(rewrite.span, "rewrite");
-  return scene.tears.empty() && scene.rewrites.empty();
+/// The model with what tears and what is rewritten while it runs.
+engine::Model full_model(const scene::Scene& scene) {
+  engine::Model model = scene.model;
+  model.tears = scene.tears;
+  model.rewrites = scene.rewrites;
+  const auto fixed = scene.program.schema.find("fixed");
+  const engine::State& state = *scene.state;
+  if (scene.on_split == engine::OnSplit::Both || !fixed || !state.store.in_use(*fixed)) return model;
+  for (const gmap::DartId dart :
+       gmap::all_orbits(state.map, types::OrbitType::cell(0, scene.program.dimension)))
+    if (state.store.get(*fixed, dart)[0] != 0) model.holds.push_back({dart, scene.on_split});
+  return model;
 }
 
 }  // namespace
@@ -31,12 +32,11 @@ std::unique_ptr<scene::Scene> load_scene(Session& session, const std::vector<std
 }
 
 std::unique_ptr<engine::Simulation> make_simulation(Session& session, scene::Scene& scene) {
-  if (!is_supported(session, scene)) return nullptr;
   engine::SimulationOptions options;
   options.threads = session.options.run.threads;
   options.tree_kernel = session.options.run.tree_kernel;
   options.trace = &session.trace;
-  return engine::Simulation::create(*scene.state, scene.model, scene.integrator, options,
+  return engine::Simulation::create(*scene.state, full_model(scene), scene.integrator, options,
                                     session.diagnostics);
 }
 

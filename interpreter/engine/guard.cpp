@@ -23,7 +23,7 @@ EdgeLengths::EdgeLengths(const State& state, const Motion& motion) {
     if (!state.map.alive(dart)) continue;
     const DartId other = state.map.alpha(0, dart);
     const Row a = vertices.row(dart), b = vertices.row(other);
-    if (a < b) edges_.push_back({a, b, 0});
+    if (a < b) edges_.push_back({dart, a, b, 0});
   }
   const auto key = [](const Edge& edge) { return std::pair(edge.a, edge.b); };
   std::ranges::sort(edges_, {}, key);
@@ -33,6 +33,16 @@ EdgeLengths::EdgeLengths(const State& state, const Motion& motion) {
     edge.length = std::sqrt(dot(along, along));
     if (edge.length > 0)
       shortest_ = shortest_ == 0 ? edge.length : std::min(shortest_, edge.length);
+  }
+}
+
+void EdgeLengths::follow(const State& state) {
+  const gmap::OrbitIndex& vertices =
+      state.store.index_of(*state.program.schema.find("position"));
+  std::erase_if(edges_, [&](const Edge& edge) { return !state.map.alive(edge.dart); });
+  for (Edge& edge : edges_) {
+    edge.a = vertices.row(edge.dart);
+    edge.b = vertices.row(state.map.alpha(0, edge.dart));
   }
 }
 

@@ -21,9 +21,12 @@ class EdgeLengths {
   [[nodiscard]] double shortest() const { return shortest_; }
   /// Largest length over original length; 1 without edges.
   [[nodiscard]] double max_elongation(const Motion& motion) const;
+  /// Looks the vertices up anew after the map has changed; edges that are gone are forgotten.
+  void follow(const State& state);
 
  private:
   struct Edge {
+    DartId dart = gmap::kNoDart;
     Row a = 0, b = 0;
     double length = 0;
   };

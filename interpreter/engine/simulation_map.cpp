@@ -38,6 +38,7 @@ bool Simulation::Implementation::adopt_map(std::span<const DartId> touched,
   forces_->refresh(touched);
   if (!hold_vertices(diagnostics) || !weigh_vertices(diagnostics)) return false;
   load_motion();
+  edges_.follow(state_);
   prescribed_.begin_step(now_);
   if (!first_forces(diagnostics)) return false;
   if (auto problem = changes_->rebuild()) {
