@@ -23,7 +23,8 @@ const SceneExpression* given(const Acting::Use& use, std::uint32_t parameter) {
 
 class Binder {
  public:
-  Binder(Building& building, engine::Matcher& matcher, std::uint32_t interaction, const Acting& acting)
+  Binder(Building& building, engine::Matcher& matcher, std::uint32_t interaction,
+         const Acting& acting)
       : building_(building),
         matcher_(matcher),
         acting_(acting),
@@ -40,9 +41,10 @@ class Binder {
       active_.parameters.push_back(binding(i));
       if (building_.diagnostics.has_errors()) return std::nullopt;
     }
-    const bool stored = std::ranges::any_of(active_.parameters, [](const ParameterBinding& parameter) {
-      return parameter.kind == ParameterBinding::Kind::Stored;
-    });
+    const bool stored =
+        std::ranges::any_of(active_.parameters, [](const ParameterBinding& parameter) {
+          return parameter.kind == ParameterBinding::Kind::Stored;
+        });
     if (stored && !store_all()) return std::nullopt;
     return std::move(active_);
   }
@@ -51,7 +53,9 @@ class Binder {
   // ---- how each parameter is kept ---------------------------------------------------------------
 
   ParameterBinding binding(std::uint32_t i) {
-    ParameterBinding result{.embedding = body_.parameters[i].embedding.value(), .kind = {}, .uniform = {},
+    ParameterBinding result{.embedding = body_.parameters[i].embedding.value(),
+                            .kind = {},
+                            .uniform = {},
                             .expression = {}};
     for (const Acting::Use& use : acting_.uses)
       if (const SceneExpression* expression = given(use, i); expression && !result.expression.value)
@@ -86,8 +90,9 @@ class Binder {
       if (first && expression && expression->text == first->text) continue;
       building_.report(
           DiagnosticKind::NotAvailable, expression ? expression->span : use.use->span,
-          fmt::format("`{}` of `{}` reads the time, so it must be one expression for the whole scene",
-                      body_.parameters[i].name, pattern_.name),
+          fmt::format(
+              "`{}` of `{}` reads the time, so it must be one expression for the whole scene",
+              body_.parameters[i].name, pattern_.name),
           fmt::format("give the same text wherever `{}` acts; it may tell places apart with `if`",
                       pattern_.name));
       return;
@@ -106,7 +111,8 @@ class Binder {
   }
 
   std::optional<types::Value> constant_value(const SceneExpression* expression, std::uint32_t i) {
-    const types::ExprPtr& value = expression ? expression->code.value : body_.parameters[i].default_value;
+    const types::ExprPtr& value =
+        expression ? expression->code.value : body_.parameters[i].default_value;
     if (!value || !is_constant(*value)) return std::nullopt;
     engine::Frame frame(expression ? expression->code.frame_size : body_.frame_size);
     types::Value result{.type = body_.parameters[i].type};
@@ -118,15 +124,18 @@ class Binder {
   /// Something may write or read it as a value of its orbit, or divide it.
   [[nodiscard]] bool needs_column(types::EmbeddingId id) const {
     const bool changes = !building_.scene.tears.empty() || !building_.scene.rewrites.empty();
-    const bool divided = changes && building_.scene.program.schema[id].kind == gmap::EmbeddingKind::Extensive;
+    const bool divided =
+        changes && building_.scene.program.schema[id].kind == gmap::EmbeddingKind::Extensive;
     return divided || written_.contains(id) || building_.reads.contains(id);
   }
 
   // ---- values at matches ------------------------------------------------------------------------
 
   bool store_all() {
-    const engine::Enumeration enumeration{.orbit = pattern_.orbit, .first = pattern_.first.get(),
-                                          .first_dart = pattern_.first_dart, .presence = pattern_.presence};
+    const engine::Enumeration enumeration{.orbit = pattern_.orbit,
+                                          .first = pattern_.first.get(),
+                                          .first_dart = pattern_.first_dart,
+                                          .presence = pattern_.presence};
     std::vector<std::pair<DartId, std::vector<std::vector<double>>>> all;
     const auto error = engine::for_each_match(
         matcher_, building_.state(), pattern_.match, pattern_.frame_size, {}, enumeration,
@@ -181,11 +190,12 @@ class Binder {
       building_.diagnostics.report(matcher_.evaluator().take_failure().diagnostic);
       return false;
     }
-    return std::ranges::all_of(expr.args, [&](const types::ExprPtr& part) { return define_lets(*part, frame); });
+    return std::ranges::all_of(
+        expr.args, [&](const types::ExprPtr& part) { return define_lets(*part, frame); });
   }
 
-  bool number(const types::Expr& expr, engine::Frame& frame, std::vector<double>& out, std::uint32_t i,
-              DartId dart) {
+  bool number(const types::Expr& expr, engine::Frame& frame, std::vector<double>& out,
+              std::uint32_t i, DartId dart) {
     support::Diagnostic problem{
         .kind = DiagnosticKind::NonFinite,
         .message = fmt::format("the parameter `{}` is not finite", body_.parameters[i].name),
@@ -195,9 +205,9 @@ class Binder {
     } else {
       problem = matcher_.evaluator().take_failure().diagnostic;
     }
-    problem.notes.push_back(fmt::format(
-        "parameter `{}` of `{}`{}", body_.parameters[i].name, pattern_.name,
-        dart == gmap::kNoDart ? "" : " at " + dart_text(building_.state(), dart)));
+    problem.notes.push_back(
+        fmt::format("parameter `{}` of `{}`{}", body_.parameters[i].name, pattern_.name,
+                    dart == gmap::kNoDart ? "" : " at " + dart_text(building_.state(), dart)));
     building_.diagnostics.report(std::move(problem));
     return false;
   }
@@ -214,8 +224,10 @@ class Binder {
 
 }  // namespace
 
-std::optional<engine::ActiveInteraction> bind_parameters(Building& building, engine::Matcher& matcher,
-                                                         std::uint32_t interaction, const Acting& acting) {
+std::optional<engine::ActiveInteraction> bind_parameters(Building& building,
+                                                         engine::Matcher& matcher,
+                                                         std::uint32_t interaction,
+                                                         const Acting& acting) {
   return Binder(building, matcher, interaction, acting).bind();
 }
 

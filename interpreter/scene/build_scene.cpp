@@ -21,8 +21,11 @@ types::EmbeddingId Building::embedding(const char* name) const {
 
 void Building::report(DiagnosticKind kind, std::optional<support::Span> place, std::string message,
                       std::string help, support::Severity severity) const {
-  diagnostics.report({.kind = kind, .message = std::move(message), .place = place,
-                      .help = std::move(help), .severity = severity});
+  diagnostics.report({.kind = kind,
+                      .message = std::move(message),
+                      .place = place,
+                      .help = std::move(help),
+                      .severity = severity});
 }
 
 DartEvaluator::DartEvaluator(const Building& building)
@@ -50,7 +53,8 @@ bool DartEvaluator::evaluate(const SceneExpression& expression, gmap::DartId dar
   frame_.reset(expression.code.frame_size);
   frame_.set(expression.code.dart, dart);
   out.assign(types::component_count(expression.code.value->type), 0.0);
-  support::Diagnostic problem{.kind = DiagnosticKind::NonFinite, .message = "this value is not finite",
+  support::Diagnostic problem{.kind = DiagnosticKind::NonFinite,
+                              .message = "this value is not finite",
                               .place = expression.span};
   if (evaluator_.evaluate(*expression.code.value, frame_, out)) {
     if (std::ranges::all_of(out, [](double x) { return std::isfinite(x); })) return true;
@@ -68,7 +72,8 @@ std::string dart_text(const engine::State& state, gmap::DartId dart) {
   std::string text = fmt::format("dart {}", types::index(dart));
   if (!position || !state.store.in_use(*position)) return text;
   const auto at = state.store.get(*position, dart);
-  return at.size() == 3 ? fmt::format("{} at ({:.6g}, {:.6g}, {:.6g})", text, at[0], at[1], at[2]) : text;
+  return at.size() == 3 ? fmt::format("{} at ({:.6g}, {:.6g}, {:.6g})", text, at[0], at[1], at[2])
+                        : text;
 }
 
 namespace {
@@ -77,7 +82,8 @@ void require_values(const Building& building) {
   for (const std::string& name : missing_embeddings(building.state()))
     building.report(DiagnosticKind::MissingValue, std::nullopt,
                     fmt::format("the scene gives no value for the embedding `{}`", name),
-                    fmt::format("give it under `initial` of each body, a default in its declaration, or make it `optional`"));
+                    fmt::format("give it under `initial` of each body, a default in its "
+                                "declaration, or make it `optional`"));
 }
 
 }  // namespace

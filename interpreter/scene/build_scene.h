@@ -19,12 +19,12 @@ struct Building {
   ScenePlan& plan;
   support::Diagnostics& diagnostics;
 
-  gmap::Mesh mesh = {};                     ///< all bodies, one after another
+  gmap::Mesh mesh = {};                         ///< all bodies, one after another
   std::vector<std::uint32_t> first_point = {};  ///< of each body
   std::vector<std::uint32_t> first_cell = {};
   std::vector<std::uint32_t> mesh_dart_point = {}, mesh_dart_cell = {};  ///< as gmap::MeshMap
-  std::vector<std::uint32_t> dart_body = {};    ///< by dart
-  std::set<types::EmbeddingId> reads = {};      ///< what some part of the scene reads
+  std::vector<std::uint32_t> dart_body = {};                             ///< by dart
+  std::set<types::EmbeddingId> reads = {};  ///< what some part of the scene reads
 
   [[nodiscard]] engine::State& state() const { return *scene.state; }
   [[nodiscard]] bool in_body(gmap::DartId dart, std::optional<std::size_t> body) const {
@@ -73,7 +73,8 @@ void set_initial_values(Building& building);
 void number_points(Building& building);
 
 /// Every embedding that some part of the scene reads or must have.
-[[nodiscard]] std::set<types::EmbeddingId> embeddings_read(const Scene& scene, const ScenePlan& plan);
+[[nodiscard]] std::set<types::EmbeddingId> embeddings_read(const Scene& scene,
+                                                           const ScenePlan& plan);
 /// What rules that act during the run write.
 [[nodiscard]] std::set<types::EmbeddingId> embeddings_written(const Scene& scene);
 

@@ -16,8 +16,8 @@ using support::DiagnosticKind;
 using support::Severity;
 
 /// One dart, the smallest, of each chosen orbit, ascending.
-std::vector<DartId> chosen(const Building& building, types::OrbitType orbit, const SceneExpression& where,
-                           std::optional<std::size_t> body) {
+std::vector<DartId> chosen(const Building& building, types::OrbitType orbit,
+                           const SceneExpression& where, std::optional<std::size_t> body) {
   DartEvaluator evaluator(building);
   std::vector<DartId> darts;
   for (const DartId dart : gmap::all_orbits(building.state().map, orbit))
@@ -47,8 +47,9 @@ class Claims {
     }
     building_.diagnostics.report(
         {.kind = DiagnosticKind::Conflict,
-         .message = fmt::format("the vertex of {} is {}", dart_text(building_.state(), dart),
-                                other->second.moved ? "moved by two prescriptions" : "fixed and moved"),
+         .message =
+             fmt::format("the vertex of {} is {}", dart_text(building_.state(), dart),
+                         other->second.moved ? "moved by two prescriptions" : "fixed and moved"),
          .place = by.span,
          .related = {{other->second.by->span, "the other one"}}});
   }
@@ -119,7 +120,8 @@ constexpr std::uint32_t kNoPoint = 0xffffffffu;
 /// The point of each vertex row. A vertex has the point of its oldest dart that came from the mesh;
 /// vertices that have none left, because a rule made them or another part took the point, are
 /// numbered behind, in the order of their smallest darts.
-std::vector<std::uint32_t> points_of_rows(const Building& building, const gmap::OrbitIndex& vertices) {
+std::vector<std::uint32_t> points_of_rows(const Building& building,
+                                          const gmap::OrbitIndex& vertices) {
   std::vector<std::uint32_t> points(vertices.row_end(), kNoPoint);
   std::vector<bool> taken(building.mesh.points.size(), false);
   for (std::uint32_t dart = 0; dart < building.mesh_dart_point.size(); ++dart) {
@@ -133,7 +135,8 @@ std::vector<std::uint32_t> points_of_rows(const Building& building, const gmap::
   auto next = static_cast<std::uint32_t>(building.mesh.points.size());
   std::vector<std::pair<DartId, Row>> unnamed;
   for (Row row = 0; row < vertices.row_end(); ++row)
-    if (vertices.alive(row) && points[row] == kNoPoint) unnamed.emplace_back(vertices.smallest(row), row);
+    if (vertices.alive(row) && points[row] == kNoPoint)
+      unnamed.emplace_back(vertices.smallest(row), row);
   std::ranges::sort(unnamed);
   for (const auto& [dart, row] : unnamed) points[row] = next++;
   return points;
@@ -156,9 +159,10 @@ void find_expected_points(Building& building, const std::vector<DartId>& dart_of
     if (known) {
       scene.expectations[i].dart = dart_of_point[static_cast<std::size_t>(number)];
     } else if (wanted.point) {
-      building.report(DiagnosticKind::OutOfRange, wanted.span,
-                      fmt::format("`{}` has no point {}", building.plan.bodies[body].name, *wanted.point),
-                      fmt::format("its points are numbered from 0 to {}", count - 1));
+      building.report(
+          DiagnosticKind::OutOfRange, wanted.span,
+          fmt::format("`{}` has no point {}", building.plan.bodies[body].name, *wanted.point),
+          fmt::format("its points are numbered from 0 to {}", count - 1));
     } else {
       scene.expectations[i].dart = scene.bodies[body].vertices.at(0);
     }
@@ -185,8 +189,10 @@ void number_points(Building& building) {
   for (std::size_t body = 0; body < building.plan.bodies.size(); ++body)
     scene.bodies.push_back({building.plan.bodies[body].name, {}, 0});
   for (const DartId dart : dart_of_point)
-    if (dart != gmap::kNoDart) scene.bodies[building.dart_body[types::index(dart)]].vertices.push_back(dart);
-  for (const DartId cell : gmap::all_orbits(map, types::OrbitType::range(0, building.plan.dimension - 1)))
+    if (dart != gmap::kNoDart)
+      scene.bodies[building.dart_body[types::index(dart)]].vertices.push_back(dart);
+  for (const DartId cell :
+       gmap::all_orbits(map, types::OrbitType::range(0, building.plan.dimension - 1)))
     ++scene.bodies[building.dart_body[types::index(cell)]].cells;
   find_expected_points(building, dart_of_point);
 }

@@ -44,7 +44,8 @@ void report_problems(const Building& building) {
 void use_columns(Building& building) {
   for (const types::EmbeddingId id : building.reads) {
     const gmap::EmbeddingDecl& declaration = building.scene.program.schema[id];
-    if (declaration.role == gmap::EmbeddingRole::Data && declaration.kind != gmap::EmbeddingKind::Derived)
+    if (declaration.role == gmap::EmbeddingRole::Data &&
+        declaration.kind != gmap::EmbeddingKind::Derived)
       building.state().use(id);
   }
 }
@@ -93,8 +94,9 @@ void share_vertex_masses(Building& building, std::size_t body) {
     if (!building.in_body(dart, body)) continue;
     if (!evaluator.evaluate(expression, dart, mass)) return;
     if (mass[0] < 0) {
-      building.report(DiagnosticKind::OutOfRange, expression.span,
-                      fmt::format("the mass is {} kg at {}", mass[0], dart_text(building.state(), dart)));
+      building.report(
+          DiagnosticKind::OutOfRange, expression.span,
+          fmt::format("the mass is {} kg at {}", mass[0], dart_text(building.state(), dart)));
       return;
     }
     const auto corners = gmap::quotient(building.state().map, vertex, corner, dart);
@@ -113,7 +115,8 @@ bool build_state(Building& building) {
   building.mesh_dart_point = std::move(built.dart_point);
   building.mesh_dart_cell = std::move(built.dart_cell);
   find_bodies_of_darts(building, built.map.dart_end());
-  building.scene.state = std::make_unique<engine::State>(building.scene.program, std::move(built.map));
+  building.scene.state =
+      std::make_unique<engine::State>(building.scene.program, std::move(built.map));
   building.state().seed = building.scene.seed;
   use_columns(building);
   set_positions(building.state(), building.mesh, building.mesh_dart_point);
@@ -152,7 +155,8 @@ class Preparer {
       std::uint64_t applied = 0;
       for (std::int64_t time = 0; time < preparation.times; ++time) {
         const engine::RewriteOutcome outcome = apply(preparation, body);
-        building_.dart_body.resize(building_.state().map.dart_end(), static_cast<std::uint32_t>(body));
+        building_.dart_body.resize(building_.state().map.dart_end(),
+                                   static_cast<std::uint32_t>(body));
         applied += outcome.effects.applications;
         if (!failed(outcome, preparation, body)) continue;
         return;
@@ -171,17 +175,20 @@ class Preparer {
     std::vector<DartId> darts;
     DartEvaluator evaluator(building_);
     for (const DartId dart : gmap::all_orbits(building_.state().map, preparation.to))
-      if (building_.in_body(dart, body) && evaluator.holds(preparation.where, dart)) darts.push_back(dart);
+      if (building_.in_body(dart, body) && evaluator.holds(preparation.where, dart))
+        darts.push_back(dart);
     if (evaluator.failed()) return {};
     if (preparation.change.operation)
-      return engine::OperationRunner(rewriter_).run_each(program.operations[preparation.change.target],
-                                                         darts, preparation.arguments);
+      return engine::OperationRunner(rewriter_).run_each(
+          program.operations[preparation.change.target], darts, preparation.arguments);
     const compile::Rule& rule = program.rules[preparation.change.target];
-    return rule.rewrite.changes.empty() ? rewriter_.apply_at_once(rule, darts, preparation.arguments)
-                                        : rewriter_.apply_each(rule, darts, preparation.arguments);
+    return rule.rewrite.changes.empty()
+               ? rewriter_.apply_at_once(rule, darts, preparation.arguments)
+               : rewriter_.apply_each(rule, darts, preparation.arguments);
   }
 
-  bool failed(const engine::RewriteOutcome& outcome, const Preparation& preparation, std::size_t body) {
+  bool failed(const engine::RewriteOutcome& outcome, const Preparation& preparation,
+              std::size_t body) {
     if (outcome.error && outcome.status == engine::RewriteOutcome::Status::Failed) {
       support::Diagnostic problem = *outcome.error;
       problem.notes.push_back(fmt::format("while `{}` prepares `{}`", preparation.name,
@@ -198,12 +205,12 @@ class Preparer {
 }  // namespace
 
 void prepare_bodies(Building& building) {
-  const bool any = std::ranges::any_of(building.plan.bodies, [](const BodyPlan& body) {
-    return !body.prepare.empty();
-  });
+  const bool any = std::ranges::any_of(building.plan.bodies,
+                                       [](const BodyPlan& body) { return !body.prepare.empty(); });
   if (!any) return;
   Preparer preparer(building);
-  for (std::size_t body = 0; body < building.plan.bodies.size() && !building.diagnostics.has_errors(); ++body)
+  for (std::size_t body = 0;
+       body < building.plan.bodies.size() && !building.diagnostics.has_errors(); ++body)
     preparer.run(body);
 }
 

@@ -57,9 +57,8 @@ bool reads_clock(const Expr& expr, const gmap::EmbeddingSchema& schema) {
     const types::ExprPtr& derivation = schema[expr.embedding].derivation;
     if (derivation && reads_clock(*derivation, schema)) return true;
   }
-  return std::ranges::any_of(expr.args, [&](const types::ExprPtr& part) {
-    return part && reads_clock(*part, schema);
-  });
+  return std::ranges::any_of(
+      expr.args, [&](const types::ExprPtr& part) { return part && reads_clock(*part, schema); });
 }
 
 void add_read(types::EmbeddingId id, const gmap::EmbeddingSchema& schema,

@@ -52,7 +52,10 @@ class Loader {
  public:
   Loader(const fs::path& path, const SceneOptions& options, support::SourceMap& sources,
          Diagnostics& diagnostics)
-      : options_(options), sources_(sources), diagnostics_(diagnostics), scene_(std::make_unique<Scene>()) {
+      : options_(options),
+        sources_(sources),
+        diagnostics_(diagnostics),
+        scene_(std::make_unique<Scene>()) {
     scene_->path = path;
   }
 
@@ -84,10 +87,13 @@ class Loader {
 
   bool check_rules() {
     std::vector<fs::path> files;
-    const std::vector<std::string> modules = check::module_names(check::library_texts(options_.library));
+    const std::vector<check::LibraryText> library = check::library_texts(options_.library);
     bool found = true;
     for (const YamlNode& rule : tree_.find("rules")->items) {
-      if (std::ranges::find(modules, rule.text) != modules.end()) continue;
+      const bool module = std::ranges::any_of(library, [&](const check::LibraryText& text) {
+        return check::belongs_to(text.path, rule.text);
+      });
+      if (module && !rule.text.empty()) continue;
       const fs::path file = scene_->path.parent_path() / rule.text;
       std::error_code error;
       if (fs::is_regular_file(file, error)) {
@@ -95,7 +101,7 @@ class Loader {
         continue;
       }
       found = false;
-      report_missing_rules(rule, modules);
+      report_missing_rules(rule, check::module_names(library));
     }
     const std::size_t errors = diagnostics_.error_count();
     scene_->rules = check::check_rules(files, options_.library, sources_, diagnostics_);
@@ -104,19 +110,22 @@ class Loader {
   }
 
   void report_missing_rules(const YamlNode& rule, std::vector<std::string> names) {
-    for (const std::string& file : check::rule_files_in(scene_->path.parent_path())) names.push_back("./" + file);
+    for (const std::string& file : check::rule_files_in(scene_->path.parent_path()))
+      names.push_back("./" + file);
     std::string help = support::did_you_mean(rule.text, names);
     if (help.empty()) help = "files are named relative to the scene, as in `./my.rule`";
-    diagnostics_.report({.kind = DiagnosticKind::ImportNotFound,
-                         .message = fmt::format("`{}` is neither a module of the library nor a file", rule.text),
-                         .place = rule.span,
-                         .help = std::move(help)});
+    diagnostics_.report(
+        {.kind = DiagnosticKind::ImportNotFound,
+         .message = fmt::format("`{}` is neither a module of the library nor a file", rule.text),
+         .place = rule.span,
+         .help = std::move(help)});
   }
 
   bool read_parts() {
     plan_.dimension = static_cast<int>(number_of(*tree_.find("dimension"), sources_));
     scene_->program = compile::compile_program(scene_->rules.in(plan_.dimension));
-    ReadContext context(scene_->rules, scene_->program, scene_->path.parent_path(), sources_, diagnostics_);
+    ReadContext context(scene_->rules, scene_->program, scene_->path.parent_path(), sources_,
+                        diagnostics_);
     read_bodies(tree_, context, plan_);
     read_interactions(tree_, context, plan_);
     read_selections(tree_, context, plan_);

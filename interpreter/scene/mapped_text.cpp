@@ -16,7 +16,9 @@ namespace {
 using support::Span;
 using types::ExprPtr;
 
-bool digit(char c) { return c >= '0' && c <= '9'; }
+bool digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 /// Length of the number that `text` begins with, as YAML writes it: `+1`, `.5` and `2.` too.
 std::size_t number_length(std::string_view text) {
@@ -75,7 +77,8 @@ void MappedText::append_scalar(const support::SourceMap& sources, const YamlNode
   const auto quantity = split_quantity(node.text);
   if (!quantity) {
     // the bytes themselves, so that lines of a folded scalar keep their places
-    append(node.exact ? sources.text(node.span) : std::string_view(node.text), node.span, node.exact);
+    append(node.exact ? sources.text(node.span) : std::string_view(node.text), node.span,
+           node.exact);
     return;
   }
   const bool exact = node.exact && sources.text(node.span) == node.text;
@@ -106,7 +109,8 @@ MappedText MappedText::of_value(const support::SourceMap& sources, const YamlNod
   const Span end{node.span.file, node.span.end, node.span.end};
   result.append("(", {node.span.file, node.span.begin, node.span.begin}, false);
   for (std::size_t i = 0; i < node.items.size(); ++i) {
-    if (i > 0) result.append(", ", {end.file, node.items[i].span.begin, node.items[i].span.begin}, false);
+    if (i > 0)
+      result.append(", ", {end.file, node.items[i].span.begin, node.items[i].span.begin}, false);
     result.append_scalar(sources, node.items[i]);
   }
   result.append(")", end, false);
@@ -136,7 +140,8 @@ std::uint32_t MappedText::place(std::uint32_t offset, bool end) const {
 Span MappedText::map(Span span) const {
   if (span.file != file_ || pieces_.empty()) return span;
   const std::uint32_t begin = place(span.begin, false);
-  return {pieces_.front().source.file, begin, std::max(begin, place(span.end, span.end > span.begin))};
+  return {pieces_.front().source.file, begin,
+          std::max(begin, place(span.end, span.end > span.begin))};
 }
 
 support::Diagnostic MappedText::map(support::Diagnostic diagnostic) const {
@@ -145,7 +150,8 @@ support::Diagnostic MappedText::map(support::Diagnostic diagnostic) const {
   return diagnostic;
 }
 
-void MappedText::report(const support::Diagnostics& found, support::Diagnostics& diagnostics) const {
+void MappedText::report(const support::Diagnostics& found,
+                        support::Diagnostics& diagnostics) const {
   for (const support::Diagnostic& diagnostic : found.all()) diagnostics.report(map(diagnostic));
 }
 

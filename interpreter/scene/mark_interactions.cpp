@@ -50,7 +50,8 @@ class Marker {
     return use.body ? fmt::format(" in `{}`", building_.plan.bodies[*use.body].name) : "";
   }
 
-  [[nodiscard]] bool chosen(const InteractionUse& use, const std::vector<bool>& claimed, DartId dart) {
+  [[nodiscard]] bool chosen(const InteractionUse& use, const std::vector<bool>& claimed,
+                            DartId dart) {
     if (!claimed.empty() && claimed[types::index(dart)]) return false;
     return building_.in_body(dart, use.body) && evaluator_.holds(use.where, dart);
   }
@@ -110,19 +111,22 @@ class Marker {
     if (use.members.empty()) return;
     std::size_t missing = 0;
     DartId first = gmap::kNoDart;
-    for (const DartId orbit : gmap::all_orbits(building_.state().map, pattern(use.members[0]).orbit)) {
+    for (const DartId orbit :
+         gmap::all_orbits(building_.state().map, pattern(use.members[0]).orbit)) {
       bool wanted = false;
-      gmap::for_each_dart(building_.state().map, pattern(use.members[0]).orbit, orbit, [&](DartId dart) {
-        wanted = wanted || (!claimed[types::index(dart)] && chosen(use, claimed, dart));
-      });
+      gmap::for_each_dart(
+          building_.state().map, pattern(use.members[0]).orbit, orbit, [&](DartId dart) {
+            wanted = wanted || (!claimed[types::index(dart)] && chosen(use, claimed, dart));
+          });
       if (!wanted || claimed[types::index(orbit)]) continue;
       if (missing++ == 0) first = orbit;
     }
     if (missing > 0 && !failed())
-      building_.report(DiagnosticKind::NoMatch, use.span,
-                       fmt::format("no member of the family `{}` fits {} of the elements, the first with {}",
-                                   use.name, missing, dart_text(building_.state(), first)),
-                       "exclude them with `where`");
+      building_.report(
+          DiagnosticKind::NoMatch, use.span,
+          fmt::format("no member of the family `{}` fits {} of the elements, the first with {}",
+                      use.name, missing, dart_text(building_.state(), first)),
+          "exclude them with `where`");
   }
 
   Building& building_;

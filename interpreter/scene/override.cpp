@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 
+#include "scene/schema.h"
 #include "support/suggest.h"
 
 namespace gmsim::scene {
@@ -24,7 +25,8 @@ struct Step {
 /// How an entry of a list can be called.
 std::string name_of(const YamlNode& item) {
   if (item.is_scalar()) return item.text;
-  if (const YamlNode* name = item.find("name"); name != nullptr && name->is_scalar()) return name->text;
+  if (const YamlNode* name = item.find("name"); name != nullptr && name->is_scalar())
+    return name->text;
   return item.entries.size() == 1 ? item.entries[0].key : std::string();
 }
 
@@ -63,11 +65,13 @@ class Override {
     const std::size_t end = std::min(equals_, text_.size());
     for (std::size_t at = 0; at <= end;) {
       const std::size_t next = std::min(text_.find('.', at), end);
-      const auto span = Span{file_, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(next)};
+      const auto span =
+          Span{file_, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(next)};
       steps_.push_back({std::string(text_.substr(at, next - at)), span});
       at = next + 1;
     }
-    const bool empty = std::ranges::any_of(steps_, [](const Step& step) { return step.name.empty(); });
+    const bool empty =
+        std::ranges::any_of(steps_, [](const Step& step) { return step.name.empty(); });
     if (equals_ != std::string_view::npos && !empty) return true;
     report({file_, 0, static_cast<std::uint32_t>(text_.size())},
            fmt::format("`{}` is not PATH=VALUE", text_),
@@ -78,7 +82,7 @@ class Override {
   /// The node that step `i` leads to from `node`, made when a mapping lacks it.
   YamlNode* step_into(YamlNode& node, std::size_t i) {
     const Step& step = steps_[i];
-    if (node.is_list()) return entry_of(node, step);
+    if (node.is_list()) return entry_of(node, step, i > 0 && steps_[i - 1].name == "bodies");
     // a mapping takes the place of a number: mass.density=10 where the scene says mass: 0.1
     if (node.is_scalar()) node = YamlNode();
     node.kind = YamlNode::Kind::Map;
@@ -91,20 +95,24 @@ class Override {
     return &node.entries.back().value;
   }
 
-  YamlNode* entry_of(YamlNode& list, const Step& step) {
+  YamlNode* entry_of(YamlNode& list, const Step& step, bool bodies) {
     std::vector<std::string> names;
     for (YamlNode& item : list.items) {
       names.push_back(name_of(item));
+      if (bodies && !item.find("name"))
+        names.back() = default_body_name(names.size() - 1, list.items.size());
       if (names.back() == step.name)
-        return item.is_map() && !item.find("name") ? &entry_with_key(item) : &item;
+        return item.is_map() && !item.find("name") && !bodies ? &entry_with_key(item) : &item;
     }
     std::size_t number = 0;
-    const auto read = std::from_chars(step.name.data(), step.name.data() + step.name.size(), number);
+    const auto read =
+        std::from_chars(step.name.data(), step.name.data() + step.name.size(), number);
     const bool whole = read.ec == std::errc{} && read.ptr == step.name.data() + step.name.size();
     if (whole && number < list.items.size()) return &list.items[number];
     std::string help = support::did_you_mean(step.name, names);
     std::erase(names, std::string());
-    if (help.empty() && !names.empty()) help = fmt::format("entries are `{}`", fmt::join(names, "`, `"));
+    if (help.empty() && !names.empty())
+      help = fmt::format("entries are `{}`", fmt::join(names, "`, `"));
     report(step.span,
            whole ? fmt::format("the list has {} entries, counted from 0", list.items.size())
                  : fmt::format("no entry of this list is called `{}`", step.name),

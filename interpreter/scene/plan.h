@@ -14,15 +14,16 @@
 #include "support/span.h"
 #include "types/expr.h"
 
-/// A scene after checking and before building: names are resolved, expressions checked, meshes read.
+/// A scene after checking and before building: names are resolved, expressions checked, meshes
+/// read.
 namespace gmsim::scene {
 
 /// An expression of a scene.
 struct SceneExpression {
   engine::DartExpression code = {};  ///< `value` is null after an error
   support::Span span = {};
-  std::string text = {};             ///< as the rule language has it
-  bool constant = false;        ///< the same everywhere and always
+  std::string text = {};  ///< as the rule language has it
+  bool constant = false;  ///< the same everywhere and always
   bool reads_clock = false;
 
   [[nodiscard]] bool good() const { return code.value != nullptr; }
@@ -40,7 +41,8 @@ struct InteractionUse {
     std::vector<GivenParameter> given = {};
   };
   std::string name = {};
-  std::vector<Member> members = {};      ///< a family's in its order; an element takes the first that fits
+  std::vector<Member> members =
+      {};  ///< a family's in its order; an element takes the first that fits
   bool family = false;
   SceneExpression where = {};
   std::optional<std::size_t> body = {};  ///< empty: all of them
@@ -55,7 +57,7 @@ struct Preparation {
   SceneExpression where = {};
   engine::Arguments arguments = {};
   std::int64_t times = 1;
-  support::Span span = {};               ///< the name
+  support::Span span = {};  ///< the name
 };
 
 /// Values to start from.
@@ -67,10 +69,10 @@ struct InitialValues {
 struct BodyPlan {
   enum class Mass : std::uint8_t { Total, Density, PerVertex };
   std::string name = {};
-  support::Span span = {};               ///< the mesh, for messages about it
-  gmap::Mesh mesh = {};                  ///< placed
+  support::Span span = {};  ///< the mesh, for messages about it
+  gmap::Mesh mesh = {};     ///< placed
   Mass mass_kind = Mass::Total;
-  double mass = 0;                  ///< kg; of Density: kg per m, m^2 or m^3
+  double mass = 0;  ///< kg; of Density: kg per m, m^2 or m^3
   SceneExpression mass_of_vertex = {};
   std::vector<Preparation> prepare = {};
   std::vector<InitialValues> initial = {};
@@ -101,10 +103,11 @@ struct ExpectedPoint {
 struct ScenePlan {
   int dimension = 2;
   std::vector<BodyPlan> bodies = {};
-  std::vector<InteractionUse> interactions = {};  ///< in the order of the scene, gravity after the bodies'
+  std::vector<InteractionUse> interactions =
+      {};  ///< in the order of the scene, gravity after the bodies'
   std::vector<FixPlan> fixes = {};
   std::vector<MovePlan> moves = {};
-  std::vector<ExpectedPoint> expected = {};       ///< parallel to Scene::expectations
+  std::vector<ExpectedPoint> expected = {};  ///< parallel to Scene::expectations
 };
 
 }  // namespace gmsim::scene

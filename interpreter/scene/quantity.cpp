@@ -31,7 +31,8 @@ std::optional<types::NamedUnit> meaning_of(const syntax::UnitExpr& unit, Diagnos
       return std::nullopt;
     }
     product.unit = product.unit * *power;
-    product.scale *= std::pow(named->scale, static_cast<double>(factor.numerator) / factor.denominator);
+    product.scale *=
+        std::pow(named->scale, static_cast<double>(factor.numerator) / factor.denominator);
   }
   return product;
 }
@@ -69,9 +70,9 @@ types::Unit schema_unit(std::string_view text) {
   support::SourceMap sources;
   Diagnostics diagnostics;
   const auto file = sources.add("schema", std::string(text));
-  const auto unit = read_unit(
-      MappedText::of_span(sources, {file, 0, static_cast<std::uint32_t>(text.size())}), sources,
-      diagnostics);
+  const auto unit =
+      read_unit(MappedText::of_span(sources, {file, 0, static_cast<std::uint32_t>(text.size())}),
+                sources, diagnostics);
   GMSIM_CHECK(unit.has_value(), "a unit of the scene schema is not understood");
   return unit->unit;
 }

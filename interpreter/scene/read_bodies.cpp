@@ -5,6 +5,7 @@
 
 #include "scene/quantity.h"
 #include "scene/read_context.h"
+#include "scene/schema.h"
 #include "support/suggest.h"
 
 namespace gmsim::scene {
@@ -14,8 +15,8 @@ using support::DiagnosticKind;
 
 void read_density(const YamlNode& node, ReadContext& context, BodyPlan& body) {
   static constexpr const char* kUnits[] = {"kg/m", "kg/m^2", "kg/m^3"};
-  const auto density =
-      read_quantity(node, schema_unit(kUnits[context.dimension() - 1]), context.sources, context.diagnostics);
+  const auto density = read_quantity(node, schema_unit(kUnits[context.dimension() - 1]),
+                                     context.sources, context.diagnostics);
   body.mass_kind = BodyPlan::Mass::Density;
   if (density) body.mass = density->value;
 }
@@ -47,19 +48,22 @@ std::optional<types::EmbeddingId> settable(const YamlEntry& entry, ReadContext& 
   const auto id = schema.find(entry.key);
   std::vector<std::string> names;
   for (const gmap::EmbeddingDecl& declaration : schema)
-    if (declaration.role == gmap::EmbeddingRole::Data && declaration.kind != gmap::EmbeddingKind::Derived)
+    if (declaration.role == gmap::EmbeddingRole::Data &&
+        declaration.kind != gmap::EmbeddingKind::Derived)
       names.push_back(declaration.name);
   if (!id) {
     names.emplace_back("where");
     context.report(DiagnosticKind::UnknownEmbedding, entry.key_span,
-                   fmt::format("no embedding named `{}`", entry.key), support::did_you_mean(entry.key, names));
+                   fmt::format("no embedding named `{}`", entry.key),
+                   support::did_you_mean(entry.key, names));
     return std::nullopt;
   }
   if (std::ranges::find(names, entry.key) != names.end()) return id;
-  context.report(DiagnosticKind::BadAssignment, entry.key_span,
-                 fmt::format("`{}` cannot be set: it {}", entry.key,
-                             schema[*id].kind == gmap::EmbeddingKind::Derived ? "is computed from other values"
-                                                                              : "belongs to an interaction"));
+  context.report(
+      DiagnosticKind::BadAssignment, entry.key_span,
+      fmt::format("`{}` cannot be set: it {}", entry.key,
+                  schema[*id].kind == gmap::EmbeddingKind::Derived ? "is computed from other values"
+                                                                   : "belongs to an interaction"));
   return std::nullopt;
 }
 
@@ -71,18 +75,19 @@ InitialValues read_initial(const YamlNode& section, ReadContext& context) {
     if (!id) continue;
     const gmap::EmbeddingDecl& declaration = context.program.schema[*id];
     initial.values.emplace_back(
-        *id, context.expression(entry.value, {.type = declaration.type, .unit = declaration.unit,
+        *id, context.expression(entry.value, {.type = declaration.type,
+                                              .unit = declaration.unit,
                                               .unit_scale = declaration.unit_scale}));
   }
   return initial;
 }
 
-/// Names of bodies; those without one are called `body`, or `body1`, `body2` … where there are several.
+/// The names of the bodies, given or default.
 void read_names(const std::vector<YamlNode>& bodies, ReadContext& context) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const YamlNode* name = bodies[i].find("name");
     if (name == nullptr) {
-      context.body_names.push_back(bodies.size() == 1 ? "body" : fmt::format("body{}", i + 1));
+      context.body_names.push_back(default_body_name(i, bodies.size()));
       continue;
     }
     if (std::ranges::find(context.body_names, name->text) != context.body_names.end())

@@ -13,7 +13,8 @@ namespace {
 
 using support::DiagnosticKind;
 
-const compile::ItemHead& head_of(const engine::NamedChange& change, const compile::Program& program) {
+const compile::ItemHead& head_of(const engine::NamedChange& change,
+                                 const compile::Program& program) {
   if (change.operation) return program.operations[change.target];
   return program.rules[change.target];
 }
@@ -26,9 +27,10 @@ const compile::Parameter* parameter_of(const YamlEntry& entry, const compile::It
   const std::string guess = support::did_you_mean(entry.key, names);
   context.report(DiagnosticKind::UnknownName, entry.key_span,
                  fmt::format("`{}` has no parameter `{}`", item.name, entry.key),
-                 !guess.empty()   ? guess
-                 : names.empty() ? "it has none"
-                                 : fmt::format("its parameters are `{}`", fmt::join(names, "`, `")));
+                 !guess.empty() ? guess
+                 : names.empty()
+                     ? "it has none"
+                     : fmt::format("its parameters are `{}`", fmt::join(names, "`, `")));
   return nullptr;
 }
 
@@ -60,14 +62,16 @@ std::vector<std::pair<const compile::Parameter*, SceneExpression>> read_paramete
 }
 
 void require_parameters(const std::vector<const compile::Parameter*>& given,
-                        const engine::NamedChange& change, support::Span span, ReadContext& context) {
+                        const engine::NamedChange& change, support::Span span,
+                        ReadContext& context) {
   const compile::ItemHead& item = head_of(change, context.program);
   for (const compile::Parameter& parameter : item.parameters) {
     if (parameter.default_value || std::ranges::find(given, &parameter) != given.end()) continue;
-    context.report(DiagnosticKind::MissingKey, span,
-                   fmt::format("`{}` needs its parameter `{}`", item.name, parameter.name),
-                   fmt::format("give it under `params`: {}{}", types::to_string(parameter.type),
-                               parameter.unit ? " [" + types::to_string(*parameter.unit) + "]" : ""));
+    context.report(
+        DiagnosticKind::MissingKey, span,
+        fmt::format("`{}` needs its parameter `{}`", item.name, parameter.name),
+        fmt::format("give it under `params`: {}{}", types::to_string(parameter.type),
+                    parameter.unit ? " [" + types::to_string(*parameter.unit) + "]" : ""));
   }
 }
 
@@ -78,8 +82,8 @@ std::optional<types::OrbitType> read_candidates(const YamlNode& section,
   if (!change.operation && program.rules[change.target].match.hooks.size() != 1) {
     const compile::Rule& rule = program.rules[change.target];
     context.report(DiagnosticKind::BadItem, span,
-                   fmt::format("`{}` has {} hooks, so candidates cannot be listed for it", rule.name,
-                               rule.match.hooks.size()),
+                   fmt::format("`{}` has {} hooks, so candidates cannot be listed for it",
+                               rule.name, rule.match.hooks.size()),
                    "use a rule with one hook, or an operation");
     return std::nullopt;
   }

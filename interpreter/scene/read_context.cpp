@@ -50,7 +50,8 @@ std::optional<types::Value> ReadContext::constant(const SceneExpression& express
   if (!expression.good()) return std::nullopt;
   if (!expression.constant) {
     report(DiagnosticKind::NotConstant, expression.span,
-           fmt::format("{} is one value for the whole run: it cannot read darts, values or time", what));
+           fmt::format("{} is one value for the whole run: it cannot read darts, values or time",
+                       what));
     return std::nullopt;
   }
   const engine::State nothing(program, gmap::GMap(dimension()));
@@ -89,9 +90,9 @@ std::optional<types::OrbitType> ReadContext::orbit(const YamlNode& node) {
   const std::string guess = support::did_you_mean(text, names);
   report(DiagnosticKind::UnknownOrbit, node.span,
          fmt::format("no orbit named `{}` in dimension {}", text, dimension()),
-         guess.empty() ? fmt::format("orbits are `{}`, or literal as in `<0,1>`",
-                                     fmt::join(names, "`, `"))
-                       : guess);
+         guess.empty()
+             ? fmt::format("orbits are `{}`, or literal as in `<0,1>`", fmt::join(names, "`, `"))
+             : guess);
   return std::nullopt;
 }
 
@@ -106,8 +107,9 @@ void ReadContext::report_unknown_item(const std::string& name, support::Span spa
   std::string help = rules.why_absent(name, dimension());
   if (help.empty()) help = support::did_you_mean(name, names);
   if (help.empty())
-    help = fmt::format("`gmsim list {}s --dimension {}` shows what there is; files of your own go under `rules:`",
-                       kind.substr(0, kind.find(' ')), dimension());
+    help = fmt::format(
+        "`gmsim list {}s --dimension {}` shows what there is; files of your own go under `rules:`",
+        kind.substr(0, kind.find(' ')), dimension());
   report(DiagnosticKind::UnknownItem, span,
          fmt::format("no {} named `{}` in dimension {}", kind, name, dimension()), std::move(help));
 }

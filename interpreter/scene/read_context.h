@@ -30,7 +30,7 @@ class ReadContext {
 
   const check::CheckedRules& rules;
   const compile::Program& program;
-  std::filesystem::path folder;           ///< of the scene: files are named relative to it
+  std::filesystem::path folder;  ///< of the scene: files are named relative to it
   support::SourceMap& sources;
   support::Diagnostics& diagnostics;
   std::vector<std::string> body_names = {};

@@ -18,7 +18,8 @@ std::string type_text(const check::Parameter& parameter) {
 
 class InteractionReader {
  public:
-  explicit InteractionReader(ReadContext& context) : context_(context), library_(context.library()) {}
+  explicit InteractionReader(ReadContext& context)
+      : context_(context), library_(context.library()) {}
 
   /// `NAME: { parameter: value, …, where: … }`.
   std::optional<InteractionUse> read(const YamlEntry& entry, std::optional<std::size_t> body) {
@@ -46,7 +47,8 @@ class InteractionReader {
     }
     if (const check::Family* family = library_.find_family(use.name)) {
       use.family = true;
-      for (const types::InteractionId id : family->members) use.members.push_back({types::index(id), {}});
+      for (const types::InteractionId id : family->members)
+        use.members.push_back({types::index(id), {}});
       return true;
     }
     std::vector<std::string> names = names_of(library_.interactions);
@@ -66,7 +68,8 @@ class InteractionReader {
       known = true;
       member.given.push_back(
           {static_cast<std::uint32_t>(parameter - parameters.begin()),
-           context_.expression(entry.value, {.type = parameter->type, .unit = parameter->unit,
+           context_.expression(entry.value, {.type = parameter->type,
+                                             .unit = parameter->unit,
                                              .unit_scale = parameter->unit_scale})});
     }
     if (!known) report_unknown(entry, use);
@@ -76,7 +79,8 @@ class InteractionReader {
     std::vector<std::string> names = {"where"};
     for (const InteractionUse::Member& member : use.members)
       for (const check::Parameter& parameter : item(member).parameters)
-        if (std::ranges::find(names, parameter.name) == names.end()) names.push_back(parameter.name);
+        if (std::ranges::find(names, parameter.name) == names.end())
+          names.push_back(parameter.name);
     const std::string guess = support::did_you_mean(entry.key, names);
     names.erase(names.begin());
     std::string help = guess;
@@ -84,13 +88,15 @@ class InteractionReader {
       help = names.empty() ? "it has none"
                            : fmt::format("its parameters are `{}`", fmt::join(names, "`, `"));
     context_.report(DiagnosticKind::UnknownName, entry.key_span,
-                    fmt::format("`{}` has no parameter `{}`", use.name, entry.key), std::move(help));
+                    fmt::format("`{}` has no parameter `{}`", use.name, entry.key),
+                    std::move(help));
   }
 
   void require_parameters(const InteractionUse::Member& member, const InteractionUse& use) {
     const auto& parameters = item(member).parameters;
     for (std::uint32_t i = 0; i < parameters.size(); ++i) {
-      const bool given = std::ranges::find(member.given, i, &GivenParameter::parameter) != member.given.end();
+      const bool given =
+          std::ranges::find(member.given, i, &GivenParameter::parameter) != member.given.end();
       if (given || parameters[i].default_value) continue;
       context_.report(DiagnosticKind::MissingKey, use.span,
                       fmt::format("`{}` needs its parameter `{}`", use.name, parameters[i].name),
@@ -125,7 +131,8 @@ void read_interactions(const YamlNode& scene, ReadContext& context, ScenePlan& p
   };
   if (const YamlNode* bodies = scene.find("bodies"))
     for (std::size_t body = 0; body < bodies->items.size(); ++body)
-      for (const YamlEntry& entry : bodies->items[body].find("interactions")->entries) add(entry, body);
+      for (const YamlEntry& entry : bodies->items[body].find("interactions")->entries)
+        add(entry, body);
   if (const auto gravity = as_load(scene)) add(*gravity, std::nullopt);
   for (const YamlNode& load : scene.find("loads")->items)
     for (const YamlEntry& entry : load.entries) add(entry, std::nullopt);

@@ -21,7 +21,8 @@ constexpr double kMostCells = 5e7;
 
 template <typename Kind, std::size_t N>
 Kind kind_of(const YamlNode& node, const std::pair<const char*, Kind> (&kinds)[N]) {
-  const auto found = std::ranges::find(kinds, node.text, [](const auto& kind) { return std::string(kind.first); });
+  const auto found =
+      std::ranges::find(kinds, node.text, [](const auto& kind) { return std::string(kind.first); });
   return found == std::end(kinds) ? kinds[0].second : found->second;
 }
 
@@ -35,8 +36,8 @@ std::vector<double> numbers(const YamlNode& node, ReadContext& context) {
 std::optional<std::vector<std::uint32_t>> counts(const YamlNode& node, ReadContext& context) {
   double product = 1;
   std::vector<std::uint32_t> result;
-  for (const double count : node.is_list() ? numbers(node, context)
-                                           : std::vector<double>{context.number(node)}) {
+  for (const double count :
+       node.is_list() ? numbers(node, context) : std::vector<double>{context.number(node)}) {
     product *= count;
     if (product > kMostCells) {
       context.report(DiagnosticKind::OutOfRange, node.span,
@@ -59,18 +60,24 @@ bool fits(const YamlNode& node, const char* what, int made, ReadContext& context
 
 std::optional<Mesh> read_grid(const YamlNode& node, ReadContext& context) {
   static constexpr std::pair<const char*, gmap::GridCells> kKinds[] = {
-      {"quads", gmap::GridCells::Quads}, {"triangles", gmap::GridCells::Triangles},
-      {"tri4", gmap::GridCells::Tri4}, {"mix2", gmap::GridCells::Mix2}, {"mix4", gmap::GridCells::Mix4}};
+      {"quads", gmap::GridCells::Quads},
+      {"triangles", gmap::GridCells::Triangles},
+      {"tri4", gmap::GridCells::Tri4},
+      {"mix2", gmap::GridCells::Mix2},
+      {"mix4", gmap::GridCells::Mix4}};
   if (!fits(node, "grid", 2, context) || !node.find("patches")) return std::nullopt;
   const auto patches = counts(*node.find("patches"), context);
   const auto size = numbers(*node.find("size"), context);
   if (!patches) return std::nullopt;
-  return gmap::grid((*patches)[0], (*patches)[1], size[0], size[1], kind_of(*node.find("cells"), kKinds));
+  return gmap::grid((*patches)[0], (*patches)[1], size[0], size[1],
+                    kind_of(*node.find("cells"), kKinds));
 }
 
 std::optional<Mesh> read_box(const YamlNode& node, ReadContext& context) {
   static constexpr std::pair<const char*, gmap::BoxElements> kKinds[] = {
-      {"hexes", gmap::BoxElements::Hexes}, {"tets6", gmap::BoxElements::Tets6}, {"tets5", gmap::BoxElements::Tets5}};
+      {"hexes", gmap::BoxElements::Hexes},
+      {"tets6", gmap::BoxElements::Tets6},
+      {"tets5", gmap::BoxElements::Tets5}};
   if (!fits(node, "box", 3, context) || !node.find("cells")) return std::nullopt;
   const auto cells = counts(*node.find("cells"), context);
   const auto size = numbers(*node.find("size"), context);
@@ -125,8 +132,9 @@ std::optional<Mesh> read_points(const YamlNode& section, ReadContext& context) {
   for (const YamlNode& cell : section.find("cells")->items) {
     const auto kind = cell_kind(mesh.dimension, cell.items.size());
     if (!kind) {
-      context.report(DiagnosticKind::WrongForm, cell.span,
-                     fmt::format("no cell of dimension {} has {} corners", mesh.dimension, cell.items.size()));
+      context.report(
+          DiagnosticKind::WrongForm, cell.span,
+          fmt::format("no cell of dimension {} has {} corners", mesh.dimension, cell.items.size()));
       good = false;
       continue;
     }
@@ -167,7 +175,8 @@ void rotate(Mesh& mesh, const YamlNode& rotation, ReadContext& context) {
   const double length = std::hypot(axis[0], axis[1], axis[2]);
   const double angle = context.number(*rotation.find("degrees")) * std::numbers::pi / 180;
   if (length == 0) {
-    context.report(DiagnosticKind::OutOfRange, rotation.find("axis")->span, "an axis of no length has no direction");
+    context.report(DiagnosticKind::OutOfRange, rotation.find("axis")->span,
+                   "an axis of no length has no direction");
     return;
   }
   if (angle == 0) return;  // leaves the last bits of positions alone
@@ -192,7 +201,8 @@ const YamlEntry* source_of(const YamlNode& mesh, ReadContext& context) {
     if (entry.key == "cells" || entry.value.is_null()) continue;
     if (source != nullptr) {
       context.report(DiagnosticKind::Conflict, entry.key_span,
-                     fmt::format("the mesh comes from `{}` already", source->key), "leave one of them out");
+                     fmt::format("the mesh comes from `{}` already", source->key),
+                     "leave one of them out");
       return nullptr;
     }
     source = &entry;
@@ -201,8 +211,9 @@ const YamlEntry* source_of(const YamlNode& mesh, ReadContext& context) {
   if (source != nullptr && cells == (source->key == "points")) return source;
   if (source == nullptr || source->key == "points")
     context.report(DiagnosticKind::MissingKey, mesh.span,
-                   cells ? "`cells` need `points`"
-                         : source ? "`points` need `cells`" : "this does not say where the mesh comes from",
+                   cells    ? "`cells` need `points`"
+                   : source ? "`points` need `cells`"
+                            : "this does not say where the mesh comes from",
                    "give one of `grid`, `box`, `chain`, `file`, or `points` with `cells`");
   else
     context.report(DiagnosticKind::Conflict, mesh.find_entry("cells")->key_span,

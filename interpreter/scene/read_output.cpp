@@ -18,7 +18,8 @@ types::OrbitType natural_orbit(const SceneExpression& expression, const compile:
   const bool at_a = value.kind == types::ExprKind::Embedding &&
                     value.args.at(0)->kind == types::ExprKind::Local &&
                     value.args[0]->slot == expression.code.dart;
-  return at_a ? program.schema[value.embedding].orbit : types::OrbitType::cell(0, program.dimension);
+  return at_a ? program.schema[value.embedding].orbit
+              : types::OrbitType::cell(0, program.dimension);
 }
 
 /// A value that can be stored; reported otherwise.
@@ -37,9 +38,13 @@ std::optional<OutputField> read_field(const YamlNode& node, ReadContext& context
   if (name == nullptr || value == nullptr) return std::nullopt;
   const SceneExpression expression = context.expression(*value, {});
   if (!storable(expression, context)) return std::nullopt;
-  OutputField field{.name = name->text, .text = expression.text, .orbit = {},
-                    .type = expression.code.value->type, .unit = expression.code.value->unit,
-                    .value = expression.code, .span = value->span};
+  OutputField field{.name = name->text,
+                    .text = expression.text,
+                    .orbit = {},
+                    .type = expression.code.value->type,
+                    .unit = expression.code.value->unit,
+                    .value = expression.code,
+                    .span = value->span};
   if (const YamlNode* on = node.is_map() ? node.find("on") : nullptr) {
     const auto orbit = context.orbit(*on);
     if (!orbit) return std::nullopt;
@@ -58,8 +63,10 @@ std::vector<double> read_numbers(const YamlNode& node, const types::MaybeUnit& u
     const auto value = read_quantity(item, unit, context.sources, context.diagnostics);
     numbers.push_back(value ? value->value : 0.0);
   };
-  if (node.is_list()) std::ranges::for_each(node.items, read);
-  else read(node);
+  if (node.is_list())
+    std::ranges::for_each(node.items, read);
+  else
+    read(node);
   return numbers;
 }
 
@@ -89,10 +96,12 @@ class ExpectationReader {
   /// 1 or 3; 0 (reported) for other types.
   std::size_t component_count(const SceneExpression& expression) {
     const types::ValueType& type = expression.code.value->type;
-    if (type == types::ValueType{ValueKind::Real} || type == types::ValueType{ValueKind::Int}) return 1;
+    if (type == types::ValueType{ValueKind::Real} || type == types::ValueType{ValueKind::Int})
+      return 1;
     if (type == types::ValueType{ValueKind::Vec3}) return 3;
-    context_.report(DiagnosticKind::TypeMismatch, expression.span,
-                    fmt::format("a number or a vec3 is compared, this is a {}", types::to_string(type)));
+    context_.report(
+        DiagnosticKind::TypeMismatch, expression.span,
+        fmt::format("a number or a vec3 is compared, this is a {}", types::to_string(type)));
     return 0;
   }
 
@@ -104,15 +113,17 @@ class ExpectationReader {
     point.point = context_.integer(*number);
     point.span = number->span;
     if (point.body || context_.body_names.size() < 2 || section_.find("body")) return;
-    context_.report(DiagnosticKind::MissingKey, number->span, "there are several bodies that have such a point",
-                    fmt::format("say which with `body`: `{}`", fmt::join(context_.body_names, "`, `")));
+    context_.report(
+        DiagnosticKind::MissingKey, number->span, "there are several bodies that have such a point",
+        fmt::format("say which with `body`: `{}`", fmt::join(context_.body_names, "`, `")));
   }
 
   void read_time(Expectation& expectation) {
     const YamlNode& at = *section_.find("at");
     expectation.at = at.text == "end" ? duration_ : context_.number(at);
     if (expectation.at > duration_)
-      context_.report(DiagnosticKind::OutOfRange, at.span, fmt::format("this is after the end, {} s", duration_));
+      context_.report(DiagnosticKind::OutOfRange, at.span,
+                      fmt::format("this is after the end, {} s", duration_));
   }
 
   std::optional<double> bound(std::string_view key) {
@@ -132,10 +143,12 @@ class ExpectationReader {
       return refuse(DiagnosticKind::MissingKey, section_.span, "this does not say what is expected",
                     "give `equals` with `within`, `at_least` or `at_most`");
     if (bounded && components != 1)
-      return refuse(DiagnosticKind::TypeMismatch, expectation.span, "only numbers have bounds, this is a vector");
+      return refuse(DiagnosticKind::TypeMismatch, expectation.span,
+                    "only numbers have bounds, this is a vector");
     if (equals == nullptr) return true;
     if (!within)
-      return refuse(DiagnosticKind::MissingKey, equals->span, "`equals` needs `within`, how far off it may be");
+      return refuse(DiagnosticKind::MissingKey, equals->span,
+                    "`equals` needs `within`, how far off it may be");
     expectation.within = *within;
     expectation.equals = read_numbers(*equals, unit_, context_);
     if (expectation.equals.size() == components) return true;
@@ -144,7 +157,8 @@ class ExpectationReader {
                               components == 1 ? "" : "s", expectation.equals.size()));
   }
 
-  bool refuse(DiagnosticKind kind, support::Span place, std::string message, std::string help = {}) {
+  bool refuse(DiagnosticKind kind, support::Span place, std::string message,
+              std::string help = {}) {
     context_.report(kind, place, std::move(message), std::move(help));
     return false;
   }

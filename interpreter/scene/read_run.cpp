@@ -62,9 +62,10 @@ class RunReader {
     settings.dt_min = number(*section.find("dt_min"));
     settings.dt_max = number(*section.find("dt_max"));
     if (settings.dt_max > 0 && settings.dt_min > settings.dt_max)
-      diagnostics_.report({.kind = DiagnosticKind::OutOfRange,
-                           .message = fmt::format("`dt_min` is above `dt_max`, {} s", settings.dt_max),
-                           .place = section.find("dt_min")->span});
+      diagnostics_.report(
+          {.kind = DiagnosticKind::OutOfRange,
+           .message = fmt::format("`dt_min` is above `dt_max`, {} s", settings.dt_max),
+           .place = section.find("dt_min")->span});
   }
 
   support::SourceMap& sources_;

@@ -8,7 +8,8 @@ namespace {
 using support::DiagnosticKind;
 
 Selection read_selection(const YamlNode& section, ReadContext& context) {
-  Selection selection{.body = context.body(section), .where = context.where(section), .span = section.span};
+  Selection selection{
+      .body = context.body(section), .where = context.where(section), .span = section.span};
   if (const YamlEntry* where = section.find_entry("where"); where && !where->value.is_default)
     selection.span = where->value.span;
   return selection;
@@ -22,7 +23,9 @@ engine::OnSplit on_split(const YamlNode& node) {
 void read_move(const YamlNode& section, ReadContext& context, ScenePlan& plan) {
   const YamlNode* velocity = section.find("velocity");
   const YamlNode* position = section.find("position");
-  MovePlan move{.vertices = read_selection(section, context), .gives_position = position != nullptr, .value = {}};
+  MovePlan move{.vertices = read_selection(section, context),
+                .gives_position = position != nullptr,
+                .value = {}};
   if ((velocity != nullptr) == (position != nullptr)) {
     context.report(velocity ? DiagnosticKind::Conflict : DiagnosticKind::MissingKey, section.span,
                    velocity ? "a motion is given by `velocity` and by `position`"
@@ -30,9 +33,9 @@ void read_move(const YamlNode& section, ReadContext& context, ScenePlan& plan) {
                    "give one of `velocity` and `position`");
     return;
   }
-  move.value = context.expression(position ? *position : *velocity,
-                                  {.type = {types::ValueKind::Vec3},
-                                   .unit = schema_unit(position ? "m" : "m/s")});
+  move.value = context.expression(
+      position ? *position : *velocity,
+      {.type = {types::ValueKind::Vec3}, .unit = schema_unit(position ? "m" : "m/s")});
   plan.moves.push_back(std::move(move));
 }
 

@@ -28,7 +28,8 @@ class TearReader {
 
   std::optional<engine::TearPairing> read() {
     const YamlNode* action = section_.find("do");
-    const auto change = action ? read_change(*action, context_) : std::optional<engine::NamedChange>{};
+    const auto change =
+        action ? read_change(*action, context_) : std::optional<engine::NamedChange>{};
     tear_.where = condition(section_, context_);
     if (!find_criterion()) return std::nullopt;
     read_threshold();
@@ -49,7 +50,8 @@ class TearReader {
     const YamlNode* when = section_.find("when");
     if (when == nullptr) return false;
     tear_.span = when->span;
-    const auto found = std::ranges::find(program_.criteria, when->text, &compile::RootedPattern::name);
+    const auto found =
+        std::ranges::find(program_.criteria, when->text, &compile::RootedPattern::name);
     if (found == program_.criteria.end()) {
       context_.report_unknown_item(*when, "criterion", names_of(program_.criteria));
       return false;
@@ -99,18 +101,21 @@ class TearReader {
   /// Parameters of the change: from the scene, or else from the criterion's results by name.
   void read_arguments(support::Span span) {
     std::vector<const compile::Parameter*> given;
-    for (auto& [parameter, value] : read_parameters(section_.find("params"), tear_.change, context_)) {
+    for (auto& [parameter, value] :
+         read_parameters(section_.find("params"), tear_.change, context_)) {
       given.push_back(parameter);
       tear_.arguments.push_back({parameter->slot, std::nullopt, value.code});
     }
     const auto& results = program_.criterion_bodies[tear_.criterion].results;
-    const auto& parameters = tear_.change.operation ? program_.operations[tear_.change.target].parameters
-                                                    : program_.rules[tear_.change.target].parameters;
+    const auto& parameters = tear_.change.operation
+                                 ? program_.operations[tear_.change.target].parameters
+                                 : program_.rules[tear_.change.target].parameters;
     for (const compile::Parameter& parameter : parameters) {
       const auto result = std::ranges::find(results, parameter.name, &compile::BodyResult::name);
       if (result == results.end() || std::ranges::find(given, &parameter) != given.end()) continue;
       given.push_back(&parameter);
-      tear_.arguments.push_back({parameter.slot, static_cast<std::uint32_t>(result - results.begin()), {}});
+      tear_.arguments.push_back(
+          {parameter.slot, static_cast<std::uint32_t>(result - results.begin()), {}});
     }
     require_parameters(given, tear_.change, span, context_);
   }
@@ -134,8 +139,11 @@ std::vector<engine::StandingRewrite> read_rewrites(const YamlNode& scene, ReadCo
   std::vector<engine::StandingRewrite> rewrites;
   for (const YamlNode& section : scene.find("rewrite")->items) {
     const YamlNode* apply = section.find("apply");
-    engine::StandingRewrite rewrite{.change = {}, .to = {}, .where = condition(section, context),
-                                    .parameters = {}, .span = section.span};
+    engine::StandingRewrite rewrite{.change = {},
+                                    .to = {},
+                                    .where = condition(section, context),
+                                    .parameters = {},
+                                    .span = section.span};
     const auto change = apply ? read_change(*apply, context) : std::optional<engine::NamedChange>{};
     if (!change) continue;
     rewrite.change = *change;

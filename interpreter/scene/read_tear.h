@@ -9,7 +9,8 @@
 namespace gmsim::scene {
 
 /// The lists `tear` and `rewrite`.
-[[nodiscard]] std::vector<engine::TearPairing> read_tears(const YamlNode& scene, ReadContext& context);
+[[nodiscard]] std::vector<engine::TearPairing> read_tears(const YamlNode& scene,
+                                                          ReadContext& context);
 [[nodiscard]] std::vector<engine::StandingRewrite> read_rewrites(const YamlNode& scene,
                                                                  ReadContext& context);
 

@@ -12,7 +12,8 @@ namespace {
 bool safe_plain(const std::string& text) {
   static constexpr std::string_view kSafe = "_-+.*/()<>=^";
   const auto safe = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || kSafe.find(c) != std::string_view::npos;
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           kSafe.find(c) != std::string_view::npos;
   };
   static constexpr std::string_view kFirst = "_.(/+";
   const bool first = !text.empty() && (std::isalnum(static_cast<unsigned char>(text[0])) != 0 ||
@@ -27,10 +28,14 @@ std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
-    if (c == '\n') result += "\\n";
-    else if (c == '\t') result += "\\t";
-    else if (c == '\r') result += "\\r";
-    else result += c;
+    if (c == '\n')
+      result += "\\n";
+    else if (c == '\t')
+      result += "\\t";
+    else if (c == '\r')
+      result += "\\r";
+    else
+      result += c;
   }
   return result + "\"";
 }

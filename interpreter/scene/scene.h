@@ -40,12 +40,12 @@ struct OutputPlan {
 };
 
 /// A value that `gmsim verify` compares after (or during) the run:
-/// `{ value: EXPR, at: end | TIME, equals: NUMBER | [x, y, z], within: NUMBER }`, or with `at_least`,
-/// `at_most` in place of `equals`. `point: N` (and `body: NAME` where there are several) says at
-/// which point of the mesh a value such as `position` is meant.
+/// `{ value: EXPR, at: end | TIME, equals: NUMBER | [x, y, z], within: NUMBER }`, or with
+/// `at_least`, `at_most` in place of `equals`. `point: N` (and `body: NAME` if there are several)
+/// says at which point of the mesh a value such as `position` is meant.
 struct Expectation {
   engine::DartExpression value;   ///< real or vec3
-  gmap::DartId dart = gmap::kNoDart;  ///< of the point; of the map's first vertex where none is named
+  gmap::DartId dart = gmap::kNoDart;  ///< of the point; of the body's first where none is named
   std::string text;
   double at = 0;                  ///< s
   std::vector<double> equals;     ///< 1 or 3 numbers, or empty; with `within`
@@ -75,8 +75,8 @@ struct Scene {
   std::uint64_t seed = 1;
   OutputPlan output;
   std::vector<Expectation> expectations;
-  std::vector<engine::TearPairing> tears;        ///< `tear`; a run that cannot tear must refuse them
-  std::vector<engine::StandingRewrite> rewrites; ///< `rewrite`; likewise
+  std::vector<engine::TearPairing> tears;  ///< `tear`; a run that cannot tear must refuse them
+  std::vector<engine::StandingRewrite> rewrites;  ///< `rewrite`; likewise
   engine::OnSplit on_split = engine::OnSplit::Both;  ///< of every `fix`
   std::vector<BodySummary> bodies;
   /// The point of every dart's vertex: the mesh's numbering, bodies one after another; by dart.

@@ -81,7 +81,9 @@ class Reads {
 
 }  // namespace
 
-Ids embeddings_read(const Scene& scene, const ScenePlan& plan) { return Reads(scene, plan).take(); }
+Ids embeddings_read(const Scene& scene, const ScenePlan& plan) {
+  return Reads(scene, plan).take();
+}
 
 Ids embeddings_written(const Scene& scene) {
   const check::RuleLibrary& library = scene.rules.in(scene.program.dimension);

@@ -31,7 +31,8 @@ SchemaNode& below(SchemaNode& node, std::string_view key) {
 std::vector<std::string_view> steps(std::string_view path) {
   std::vector<std::string_view> result;
   while (!path.empty()) {
-    const std::size_t end = path.starts_with("[]") ? 2 : std::min(path.find_first_of(".["), path.size());
+    const std::size_t end =
+        path.starts_with("[]") ? 2 : std::min(path.find_first_of(".["), path.size());
     result.push_back(path.substr(0, end));
     path.remove_prefix(end);
     if (path.starts_with('.')) path.remove_prefix(1);
@@ -114,8 +115,10 @@ Allowed allowed_by(const SchemaRow& row) {
     double number = 0;
     const auto read = std::from_chars(word.data() + begin, word.data() + word.size(), number);
     GMSIM_CHECK(read.ec == std::errc{}, "a bound of the scene schema is no number");
-    if (bound) allowed.bound = number;
-    else allowed.count = static_cast<std::size_t>(number);
+    if (bound)
+      allowed.bound = number;
+    else
+      allowed.count = static_cast<std::size_t>(number);
     if (bound) allowed.strict = begin == 1;
   }
   return allowed;
@@ -131,6 +134,10 @@ std::vector<std::string> SchemaNode::key_names() const {
   std::vector<std::string> names;
   for (const auto& [name, node] : keys) names.push_back(name);
   return names;
+}
+
+std::string default_body_name(std::size_t body, std::size_t count) {
+  return count == 1 ? "body" : "body" + std::to_string(body + 1);
 }
 
 const SchemaNode& schema() {

@@ -43,7 +43,8 @@ std::string describe(const YamlNode& node) {
   std::string text = "`" + node.text.substr(0, node.text.find('\n')) + "`";
   if (text.size() <= kLongest) return text;
   std::size_t end = kLongest;
-  while (end > 1 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;  // whole letters
+  while (end > 1 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u)
+    --end;  // whole letters
   return text.substr(0, end) + "…`";
 }
 

@@ -72,7 +72,8 @@ struct LoadedScene {
   }
   [[nodiscard]] const engine::ParameterBinding& parameter(const std::string& interaction,
                                                           const std::string& name) const {
-    const auto& parameters = scene->program.interactions[active(interaction)->interaction].parameters;
+    const auto& parameters =
+        scene->program.interactions[active(interaction)->interaction].parameters;
     for (std::size_t i = 0; i < parameters.size(); ++i)
       if (parameters[i].name == name) return active(interaction)->parameters[i];
     throw std::runtime_error("no parameter " + name);

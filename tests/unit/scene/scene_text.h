@@ -34,7 +34,8 @@ struct SceneText {
 
   explicit SceneText(const std::string& text, const std::vector<std::string>& overrides = {}) {
     const auto file = sources.add("scene.yaml", text);
-    tree = scene::parse_yaml(sources, {file, 0, static_cast<std::uint32_t>(text.size())}, diagnostics);
+    tree =
+        scene::parse_yaml(sources, {file, 0, static_cast<std::uint32_t>(text.size())}, diagnostics);
     if (diagnostics.has_errors()) return;
     scene::apply_overrides(tree, overrides, sources, diagnostics);
     if (!diagnostics.has_errors()) scene::validate_scene(tree, sources, diagnostics);

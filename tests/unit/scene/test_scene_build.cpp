@@ -32,8 +32,8 @@ std::string square(const std::string& body = "", const std::string& scene = "") 
          "bodies:\n"
          "  - name: square\n"
          "    mesh: { grid: { patches: [1, 1] } }\n"
-         "    mass: 1\n" + body +
-         "duration: 1\n" + scene;
+         "    mass: 1\n" +
+         body + "duration: 1\n" + scene;
 }
 
 /// Values of an embedding by point number.
@@ -104,7 +104,8 @@ TEST_CASE("the cloth of the language: what is in the state and in the model") {
   const auto& rest = loaded.state().store.column(loaded.id("stretch_spring.rest"));
   const auto& rows = loaded.state().store.index_of(loaded.id("stretch_spring.rest"));
   for (gmap::Row row = 0; row < rows.row_end(); ++row)
-    CHECK((rest.get(row)[0] == doctest::Approx(0.1) || rest.get(row)[0] == doctest::Approx(0.1 * std::sqrt(2))));
+    CHECK((rest.get(row)[0] == doctest::Approx(0.1) ||
+           rest.get(row)[0] == doctest::Approx(0.1 * std::sqrt(2))));
   CHECK(loaded.parameter("stretch_spring", "rest").kind == ParameterBinding::Kind::Stored);
   CHECK(loaded.parameter("stretch_spring", "stiffness").kind == ParameterBinding::Kind::Uniform);
   CHECK(loaded.parameter("stretch_spring", "stiffness").uniform.as_real() == 60);
@@ -129,24 +130,29 @@ TEST_CASE("the cloth of the language: what is in the state and in the model") {
 
 TEST_CASE("meshes are scaled, then turned, then shifted; units are honoured") {
   const SceneFolder folder;
-  const LoadedScene loaded(folder.write(
-      "s.yaml", square("    place: { scale: 2, rotate: { axis: [0, 0, 3], degrees: 90 }, translate: [5 cm, 0, 1] }\n")));
+  const LoadedScene loaded(
+      folder.write("s.yaml", square("    place: { scale: 2, rotate: { axis: [0, 0, 3], degrees: 90 "
+                                    "}, translate: [5 cm, 0, 1] }\n")));
   REQUIRE(loaded.rendered() == "");
   const auto position = by_point(loaded, "position");
-  const std::vector<std::vector<double>> wanted = {{0.05, 0, 1}, {0.05, 2, 1}, {-1.95, 0, 1}, {-1.95, 2, 1}};
+  const std::vector<std::vector<double>> wanted = {
+      {0.05, 0, 1}, {0.05, 2, 1}, {-1.95, 0, 1}, {-1.95, 2, 1}};
   for (std::size_t p = 0; p < 4; ++p)
-    for (std::size_t k = 0; k < 3; ++k) CHECK(position.at(p).at(k) == doctest::Approx(wanted[p][k]));
+    for (std::size_t k = 0; k < 3; ++k)
+      CHECK(position.at(p).at(k) == doctest::Approx(wanted[p][k]));
 }
 
 TEST_CASE("masses: of the body, by density, by vertex") {
   const SceneFolder folder;
   const std::string text = exchanged(square(), "[1, 1] }", "[2, 1], size: [3, 1], cells: mix2 }");
-  CHECK(LoadedScene(folder.write("a.yaml", exchanged(text, "mass: 1", "mass: 250 g"))).sum("corner_mass") ==
-        doctest::Approx(0.25));
-  CHECK(LoadedScene(folder.write("b.yaml", exchanged(text, "mass: 1", "mass: { density: 2 kg/m^2 }"))).sum("corner_mass") ==
-        doctest::Approx(6));
+  CHECK(LoadedScene(folder.write("a.yaml", exchanged(text, "mass: 1", "mass: 250 g")))
+            .sum("corner_mass") == doctest::Approx(0.25));
+  CHECK(
+      LoadedScene(folder.write("b.yaml", exchanged(text, "mass: 1", "mass: { density: 2 kg/m^2 }")))
+          .sum("corner_mass") == doctest::Approx(6));
   const LoadedScene by_vertex(folder.write(
-      "c.yaml", exchanged(text, "mass: 1", "mass: { per_vertex: \"if position.x < 1 then 1 [g] else 0.5\" }")));
+      "c.yaml", exchanged(text, "mass: 1",
+                          "mass: { per_vertex: \"if position.x < 1 then 1 [g] else 0.5\" }")));
   REQUIRE(by_vertex.rendered() == "");
   CHECK(by_vertex.sum("corner_mass") == doctest::Approx(2 * 0.001 + 4 * 0.5));
 }
@@ -175,7 +181,8 @@ TEST_CASE("parameters: the same everywhere, different by place, given at two bod
     CHECK(by_point(loaded, "position").at(3) == std::vector<double>{10, 0, 0});
   }
   SUBCASE("two constants") {
-    const LoadedScene loaded(folder.write("s.yaml", exchanged(two, "stiffness: 5", "stiffness: 7 N/mm")));
+    const LoadedScene loaded(
+        folder.write("s.yaml", exchanged(two, "stiffness: 5", "stiffness: 7 N/mm")));
     REQUIRE(loaded.rendered() == "");
     CHECK(loaded.parameter("stretch_spring", "stiffness").kind == ParameterBinding::Kind::Stored);
     const double edges = loaded.sum("stretch_spring") / 5;  // marks for each edge
@@ -183,54 +190,78 @@ TEST_CASE("parameters: the same everywhere, different by place, given at two bod
   }
   SUBCASE("of time") {
     const std::string rising = "stiffness: \"5 [N/m] * (1 + time / (1 [s]))\" }";
-    const std::string text = exchanged(exchanged(two, "stiffness: 5 }", rising), "stiffness: 5 }", rising);
+    const std::string text =
+        exchanged(exchanged(two, "stiffness: 5 }", rising), "stiffness: 5 }", rising);
     const LoadedScene loaded(folder.write("s.yaml", text));
     REQUIRE(loaded.rendered() == "");
     CHECK(loaded.parameter("stretch_spring", "stiffness").kind == ParameterBinding::Kind::OfTime);
     CHECK(!loaded.state().store.in_use(loaded.id("stretch_spring.stiffness")));
-    CHECK(LoadedScene(folder.write("t.yaml", exchanged(two, "stiffness: 5 }", rising))).errors().find(
-              "not-available: `stiffness` of `stretch_spring` reads the time") != std::string::npos);
+    CHECK(LoadedScene(folder.write("t.yaml", exchanged(two, "stiffness: 5 }", rising)))
+              .errors()
+              .find("not-available: `stiffness` of `stretch_spring` reads the time") !=
+          std::string::npos);
   }
   SUBCASE("read by somebody else") {
-    const LoadedScene loaded(
-        folder.write("s.yaml", two + "output: { fields: [ { name: k, value: a.stretch_spring.stiffness, on: edge } ] }\n"));
+    const LoadedScene loaded(folder.write(
+        "s.yaml",
+        two +
+            "output: { fields: [ { name: k, value: a.stretch_spring.stiffness, on: edge } ] }\n"));
     REQUIRE(loaded.rendered() == "");
     CHECK(loaded.parameter("stretch_spring", "stiffness").kind == ParameterBinding::Kind::Stored);
   }
   SUBCASE("where: some dart of the orbit") {
-    const std::string chosen = exchanged(two, "stiffness: 5 }", "stiffness: 5, where: \"position.x < 0.1\" }");
+    const std::string chosen =
+        exchanged(two, "stiffness: 5 }", "stiffness: 5, where: \"position.x < 0.1\" }");
     const LoadedScene loaded(folder.write("s.yaml", chosen));
     REQUIRE(loaded.rendered() == "");
-    CHECK(loaded.sum("stretch_spring") / (LoadedScene(folder.write("t.yaml", two)).sum("stretch_spring") / 5) == 4);
+    CHECK(loaded.sum("stretch_spring") /
+              (LoadedScene(folder.write("t.yaml", two)).sum("stretch_spring") / 5) ==
+          4);
   }
 }
 
-TEST_CASE("a family: each element takes the first member that fits, and every element must have one") {
+TEST_CASE(
+    "a family: each element takes the first member that fits, and every element must have one") {
   const SceneFolder folder;
-  const std::string law = "    param stiffness : real [N/m]; energy 0.5 * stiffness * dot(a.position, a.position); "
-                          "force a on corner; }\n";
+  const std::string law =
+      "    param stiffness : real [N/m]; energy 0.5 * stiffness * dot(a.position, a.position); "
+      "force a on corner; }\n";
   folder.write("law.rule", "interaction tri_law on face(a) { match triangle(a, b, c);\n" + law +
                                "interaction quad_law on face(a) { match quad(a, b, c, d);\n" + law +
                                "family law = tri_law, quad_law;\n"
                                "family half = tri_law;\n");
   const std::string text =
-      "rules: [./law.rule]\n" + exchanged(square("    interactions: { law: { stiffness: 3 } }\n"), "[1, 1] }",
-                                          "[2, 1], size: [3, 1], cells: mix2 }");
+      "rules: [./law.rule]\n" + exchanged(square("    interactions: { law: { stiffness: 3 } }\n"),
+                                          "[1, 1] }", "[2, 1], size: [3, 1], cells: mix2 }");
   const LoadedScene loaded(folder.write("s.yaml", text));
   REQUIRE(loaded.rendered() == "");
   CHECK(loaded.sum("tri_law") == 2);
   CHECK(loaded.sum("quad_law") == 1);
-  CHECK(LoadedScene(folder.write("t.yaml", exchanged(text, "law: { st", "half: { st"))).errors().find(
-            "no-match: no member of the family `half` fits 1 of the elements") != std::string::npos);
-  CHECK(LoadedScene(folder.write("u.yaml", exchanged(text, "{ stiffness: 3 }", "{ stiffnes: 3 }"))).errors().find(
-            "unknown-name: `law` has no parameter `stiffnes`") != std::string::npos);
+  CHECK(LoadedScene(folder.write("t.yaml", exchanged(text, "law: { st", "half: { st")))
+            .errors()
+            .find("no-match: no member of the family `half` fits 1 of the elements") !=
+        std::string::npos);
+  CHECK(LoadedScene(folder.write("u.yaml", exchanged(text, "{ stiffness: 3 }", "{ stiffnes: 3 }")))
+            .errors()
+            .find("unknown-name: `law` has no parameter `stiffnes`") != std::string::npos);
+}
+
+TEST_CASE("mesh files lie beside the scene") {
+  const SceneFolder folder;
+  folder.write("roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+  const LoadedScene loaded(
+      folder.write("s.yaml", exchanged(square(), "grid: { patches: [1, 1] }", "file: roof.obj")));
+  REQUIRE(loaded.rendered() == "");
+  CHECK(loaded.scene->bodies.at(0).cells == 2);
+  CHECK(by_point(loaded, "position").at(2) == std::vector<double>{1, 1, 0});
 }
 
 TEST_CASE("points that rules make are numbered behind those of the mesh") {
   const SceneFolder folder;
   const LoadedScene loaded(folder.write(
-      "s.yaml", square("    prepare: [ { apply: triangulate_face } ]\n",
-                       "expect: [ { value: position, point: 4, equals: [0.5, 0.5, 0], within: 0 } ]\n")));
+      "s.yaml",
+      square("    prepare: [ { apply: triangulate_face } ]\n",
+             "expect: [ { value: position, point: 4, equals: [0.5, 0.5, 0], within: 0 } ]\n")));
   REQUIRE(loaded.rendered() == "");
   const auto position = by_point(loaded, "position");
   REQUIRE(position.size() == 5);
@@ -243,22 +274,26 @@ TEST_CASE("points that rules make are numbered behind those of the mesh") {
 TEST_CASE("initial values: in order, each reading the state before it, of any embedding") {
   const SceneFolder folder;
   folder.write("heat.rule", "embedding temperature : real [K] on vertex;\n");
-  const std::string text = "rules: [./heat.rule]\n" +
-                           square("    initial:\n"
-                                  "      - { position: \"2 * position\", velocity: \"position / (1 [s])\" }\n"
-                                  "      - { where: \"position.x > 1.5\", velocity: [0, 0, 1] }\n"
-                                  "      - { temperature: 300 }\n",
-                                  "output: { fields: [temperature] }\n");
+  const std::string text =
+      "rules: [./heat.rule]\n" +
+      square(
+          "    initial:\n"
+          "      - { position: \"2 * position\", velocity: \"position / (1 [s])\" }\n"
+          "      - { where: \"position.x > 1.5\", velocity: [0, 0, 1] }\n"
+          "      - { temperature: 300 }\n",
+          "output: { fields: [temperature] }\n");
   const LoadedScene loaded(folder.write("s.yaml", text));
   REQUIRE(loaded.rendered() == "");
   CHECK(by_point(loaded, "position").at(3) == std::vector<double>{2, 2, 0});
   CHECK(by_point(loaded, "velocity").at(2) == std::vector<double>{0, 1, 0});
   CHECK(by_point(loaded, "velocity").at(3) == std::vector<double>{0, 0, 1});
   CHECK(by_point(loaded, "temperature").at(0) == std::vector<double>{300});
-  CHECK(LoadedScene(folder.write("t.yaml", exchanged(text, "      - { temperature: 300 }\n", ""))).errors() ==
+  CHECK(LoadedScene(folder.write("t.yaml", exchanged(text, "      - { temperature: 300 }\n", "")))
+            .errors() ==
         "missing-value: the scene gives no value for the embedding `temperature`\n");
-  const LoadedScene unused(folder.write(
-      "u.yaml", exchanged(exchanged(text, "      - { temperature: 300 }\n", ""), "fields: [temperature]", "")));
+  const LoadedScene unused(
+      folder.write("u.yaml", exchanged(exchanged(text, "      - { temperature: 300 }\n", ""),
+                                       "fields: [temperature]", "")));
   CHECK(unused.rendered() == "");
   CHECK(!unused.state().store.in_use(unused.id("temperature")));
 }
@@ -270,10 +305,12 @@ TEST_CASE("tearing and rewriting are read for who can do them; what they divide 
                "  where norm(b.position - a.position) > limit * a.stretch_spring.rest;\n"
                "  a.stretch_spring.rest = norm(b.position - a.position) / limit; }\n");
   const std::string text =
-      "rules: [./yield.rule]\n" + square("    interactions: { stretch_spring: { stiffness: 3, rest: 1 } }\n",
-                                         "fix: [ { on_split: release } ]\n"
-                                         "rewrite: [ { apply: yield, to: halfedge, params: { limit: 1.2 } } ]\n"
-                                         "tear: [ { when: spring_elongation, threshold: 1.5, do: separate_elements, at_most: 2 } ]\n");
+      "rules: [./yield.rule]\n" +
+      square("    interactions: { stretch_spring: { stiffness: 3, rest: 1 } }\n",
+             "fix: [ { on_split: release } ]\n"
+             "rewrite: [ { apply: yield, to: halfedge, params: { limit: 1.2 } } ]\n"
+             "tear: [ { when: spring_elongation, threshold: 1.5, do: separate_elements, at_most: 2 "
+             "} ]\n");
   const LoadedScene loaded(folder.write("s.yaml", text));
   REQUIRE(loaded.rendered() == "");
   CHECK(loaded.scene->tears.size() == 1);
@@ -281,6 +318,7 @@ TEST_CASE("tearing and rewriting are read for who can do them; what they divide 
   CHECK(loaded.scene->rewrites.size() == 1);
   CHECK(loaded.scene->on_split == engine::OnSplit::Release);
   CHECK(loaded.parameter("stretch_spring", "rest").kind == ParameterBinding::Kind::Stored);
-  CHECK(LoadedScene(folder.write("t.yaml", exchanged(text, "threshold: 1.5", "threshold: 0"))).errors().find(
-            "out-of-range: a threshold must be above 0") != std::string::npos);
+  CHECK(LoadedScene(folder.write("t.yaml", exchanged(text, "threshold: 1.5", "threshold: 0")))
+            .errors()
+            .find("out-of-range: a threshold must be above 0") != std::string::npos);
 }
