@@ -28,16 +28,17 @@ std::optional<KernelOp> plain_op(Op op) {
   case Op::id:    \
     return KernelOp::id;
     PLAIN(Add)
-    PLAIN(Sub) PLAIN(Neg) PLAIN(Mul) PLAIN(Div) PLAIN(Scale) PLAIN(Pow) PLAIN(Sqrt) PLAIN(Abs)
-        PLAIN(Sign) PLAIN(Min) PLAIN(Max) PLAIN(Floor) PLAIN(Ceil) PLAIN(Mod) PLAIN(Exp) PLAIN(Log)
-            PLAIN(Sin) PLAIN(Cos) PLAIN(Tan) PLAIN(Asin) PLAIN(Acos) PLAIN(Atan) PLAIN(Atan2)
-                PLAIN(Tanh) PLAIN(Vector) PLAIN(Dot) PLAIN(Cross) PLAIN(Norm) PLAIN(Normalize)
-                    PLAIN(Outer) PLAIN(MatVec) PLAIN(MatMul) PLAIN(Transpose) PLAIN(Trace)
-                        PLAIN(Det) PLAIN(Inverse) PLAIN(Contract) PLAIN(Sym) PLAIN(Full)
-                            PLAIN(Columns) PLAIN(Diagonal) PLAIN(Polar) PLAIN(MaxEigenvalue)
-                                PLAIN(MaxEigenvector) PLAIN(MinEigenvalue) PLAIN(MinEigenvector)
-                                    PLAIN(Less) PLAIN(LessEqual) PLAIN(Equal) PLAIN(And) PLAIN(Or)
-                                        PLAIN(Not) PLAIN(Select)
+    PLAIN(Sub)
+    PLAIN(Neg) PLAIN(Mul) PLAIN(Div) PLAIN(Scale) PLAIN(Pow) PLAIN(Sqrt) PLAIN(Abs) PLAIN(Sign)
+        PLAIN(Min) PLAIN(Max) PLAIN(Floor) PLAIN(Ceil) PLAIN(Mod) PLAIN(Exp) PLAIN(Log) PLAIN(Sin)
+            PLAIN(Cos) PLAIN(Tan) PLAIN(Asin) PLAIN(Acos) PLAIN(Atan) PLAIN(Atan2) PLAIN(Tanh)
+                PLAIN(Vector) PLAIN(Dot) PLAIN(Cross) PLAIN(Norm) PLAIN(Normalize) PLAIN(Outer)
+                    PLAIN(MatVec) PLAIN(MatMul) PLAIN(Transpose) PLAIN(Trace) PLAIN(Det)
+                        PLAIN(Inverse) PLAIN(Contract) PLAIN(Sym) PLAIN(Full) PLAIN(Columns)
+                            PLAIN(Diagonal) PLAIN(Polar) PLAIN(MaxEigenvalue) PLAIN(MaxEigenvector)
+                                PLAIN(MinEigenvalue) PLAIN(MinEigenvector) PLAIN(Less)
+                                    PLAIN(LessEqual) PLAIN(Equal) PLAIN(And) PLAIN(Or) PLAIN(Not)
+                                        PLAIN(Select)
 #undef PLAIN
                                             case Op::Constant : case Op::Input : case Op::Component
         : case Op::AsReal : case Op::Frozen : return std::nullopt;
@@ -87,20 +88,27 @@ class Selection {
 
   void run(RegisterPlan& plan) {
     done_.assign(graph_.size(), false);
+    const std::vector<std::uint32_t> opposites = find_opposites();
     for (std::uint32_t k = 0; k < roots_.size(); ++k) {
+      const bool stored_with_other =
+          std::find(opposites.begin(), opposites.end(), k) != opposites.end();
+      if (stored_with_other) continue;
       emit_all(roots_[k], plan);
       const View view = value_of(roots_[k]);
       const ValueKind type = graph_[roots_[k]].type;
-      plan.instruction({.op = KernelOp::Store,
+      const bool both = opposites[k] != kNoRoot;
+      plan.instruction({.op = both ? KernelOp::StoreBoth : KernelOp::Store,
                         .type = type,
                         .operands = {{{view.owner, view.row, rows_of(type)}}},
-                        .numbers = {k, 0},
+                        .numbers = {k, both ? opposites[k] : 0},
                         .span = graph_[roots_[k]].span});
     }
   }
   [[nodiscard]] const std::vector<KernelInput>& inputs() const { return inputs_; }
 
  private:
+  static constexpr std::uint32_t kNoRoot = 0xffffffffu;
+
   /// The instruction that computes a node.
   struct Choice {
     KernelOp op{};
@@ -109,6 +117,22 @@ class Selection {
     std::array<std::uint32_t, 2> numbers = {};
     std::uint8_t rows = 0;
   };
+
+  /// For each root the one that is minus it, as action and reaction are; kNoRoot where there is
+  /// none.
+  [[nodiscard]] std::vector<std::uint32_t> find_opposites() const {
+    std::vector<std::uint32_t> result(roots_.size(), kNoRoot);
+    std::unordered_map<std::uint32_t, std::uint32_t> by_node;
+    for (std::uint32_t k = 0; k < roots_.size(); ++k) by_node.emplace(index(roots_[k]), k);
+    for (std::uint32_t k = 0; k < roots_.size(); ++k) {
+      const Node& node = graph_[roots_[k]];
+      if (node.op != Op::Neg || node.type != ValueKind::Vec3 || uniform_[index(roots_[k])])
+        continue;
+      const auto of = by_node.find(index(node.operands[0]));
+      if (of != by_node.end() && result[of->second] == kNoRoot) result[of->second] = k;
+    }
+    return result;
+  }
 
   void view(NodeId id) {
     const Node& node = graph_[id];
@@ -161,8 +185,7 @@ class Selection {
       positions_[k] = static_cast<std::uint32_t>(inputs_.size());
       using Source = ir::Input::Source;
       const Source source = graph_.inputs()[k].source;
-      const bool uniform =
-          source == Source::Time || source == Source::Dt || source == Source::Step;
+      const bool uniform = source == Source::Time || source == Source::Dt || source == Source::Step;
       inputs_.push_back({k, types[k], uniform});
     }
   }

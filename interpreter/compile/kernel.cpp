@@ -23,6 +23,7 @@ std::uint32_t cost(const KernelInstruction& instruction) {
   switch (instruction.op) {
     case KernelOp::Gather:
     case KernelOp::Store:
+    case KernelOp::StoreBoth:
     case KernelOp::Vector:
     case KernelOp::Transpose:
     case KernelOp::Full:
@@ -82,7 +83,7 @@ std::uint32_t first_uniform(const Kernel& kernel) {
   for (const KernelConstant& constant : kernel.constants)
     first = std::min(first, constant.place.offset);
   for (const KernelInstruction& instruction : kernel.once)
-    if (instruction.op != KernelOp::Store) first = std::min(first, instruction.d.offset);
+    if (instruction.d.rows != 0) first = std::min(first, instruction.d.offset);
   return first;
 }
 
@@ -90,6 +91,8 @@ std::string line(const Kernel& kernel, const KernelInstruction& i, std::uint32_t
   std::string text;
   if (i.op == KernelOp::Store) {
     text = fmt::format("out{} = ", i.numbers[0]);
+  } else if (i.op == KernelOp::StoreBoth) {
+    text = fmt::format("out{} out{} = ", i.numbers[0], i.numbers[1]);
   } else {
     text = fmt::format("{}.{} = ", register_text(kernel, i.d, uniform_begin), i.d.rows);
   }

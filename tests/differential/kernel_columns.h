@@ -94,7 +94,7 @@ inline void compare_kernel(const ir::Graph& graph, const std::vector<ir::NodeId>
   std::vector<Column> out(roots.size());
   std::vector<engine::OutputBinding> bindings;
   for (std::size_t k = 0; k < roots.size(); ++k) {
-    const std::uint32_t stride = entry_count(graph[roots[k]].type) + k % 2;
+    const std::uint32_t stride = entry_count(graph[roots[k]].type) + (k / 2 + matches) % 2;
     out[k].memory.resize(matches * stride / 4 + 1);
     for (auto& line : out[k].memory) std::fill_n(line.d, 4, kUntouched);
     out[k].binding = {out[k].memory.front().d, stride, nullptr, true};

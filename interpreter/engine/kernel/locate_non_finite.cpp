@@ -33,7 +33,7 @@ class Trace {
     for (const auto* code : {&kernel_.once, &kernel_.code}) {
       for (const KernelInstruction& in : *code) {
         note_operands(in);
-        if (in.op == KernelOp::Store) {
+        if (in.d.rows == 0) {  // a store
           if (const auto culprit = steps_.back().culprit) return origin(in.numbers[0], *culprit);
           continue;
         }

@@ -15,7 +15,8 @@ namespace {
 
 using Instruction = compile::KernelInstruction;
 
-// clang-format off: each builds on those before it
+// Each builds on those before it.
+// clang-format off
 #include "engine/kernel/vector.h"
 #include "engine/kernel/vector_math.h"
 #include "engine/kernel/vector_polar.h"
@@ -45,6 +46,7 @@ OpTable make_table() {
   GMSIM_ALL_TYPES(Gather, gather)
   set(KernelOp::GatherDifference, gather_difference);
   GMSIM_ALL_TYPES(Store, store)
+  set(KernelOp::StoreBoth, store_both);
   set(KernelOp::MulAdd, mul_add);
   set(KernelOp::MulSub, mul_sub);
   set(KernelOp::SubMul, sub_mul);
