@@ -32,21 +32,33 @@ ShapeSet::ShapeSet(const World& world, const ItemBody& body, Wanted wanted,
 ShapeSet::~ShapeSet() = default;
 
 std::optional<std::uint32_t> ShapeSet::classify(std::span<const DartId> nodes, MatchRoles& out) {
-  for (FastWay& way : fast_)
-    if (way.walks.run(world_, nodes, out)) return way.shape;
+  for (FastWay& way : fast_) {
+    if (!way.walks.run(world_, nodes, out)) continue;
+    out.straight = true;
+    out.walked = way.walks.darts();
+    return way.shape;
+  }
+  const auto note_walks = [&](std::optional<WalkProgram>& walks) {
+    MatchRoles again;
+    out.straight = walks && walks->run(world_, nodes, again);
+    out.walked = out.straight ? walks->darts() : std::vector<DartId>{};
+  };
   if (!shapes_.empty()) {
     if (!specialiser_.trace(nodes, out)) return std::nullopt;
-    if (const auto known = by_key_.find(out.key); known != by_key_.end()) return known->second;
+    if (const auto known = by_key_.find(out.key); known != by_key_.end()) {
+      auto walks = specialiser_.walker_->trace().take();
+      note_walks(walks);
+      return known->second;
+    }
   }
   auto shape = std::make_unique<Shape>();
   if (!specialiser_.build(nodes, out, *shape)) return std::nullopt;
   const auto number = static_cast<std::uint32_t>(shapes_.size());
   by_key_.emplace(out.key, number);
   shapes_.push_back(std::move(shape));
-  if (fast_.size() < kMostFastWays) {
-    if (auto walks = specialiser_.walker_->trace().take())
-      fast_.push_back({std::move(*walks), number});
-  }
+  auto walks = specialiser_.walker_->trace().take();
+  note_walks(walks);
+  if (walks && fast_.size() < kMostFastWays) fast_.push_back({std::move(*walks), number});
   return number;
 }
 

@@ -87,6 +87,10 @@ struct MatchRoles {
   std::vector<DartId> targets;  ///< the dart of each force target
   std::vector<std::uint32_t> atomic = {};  ///< atomic forces that the match goes through one by one
   std::vector<std::uint32_t> key;
+  /// From ShapeSet::classify: does the match rest on links and coincidences alone? Then `walked` are
+  /// all darts on which its roles and its shape depend, the nodes included.
+  bool straight = false;
+  std::vector<DartId> walked = {};
 };
 
 /// Why there is no program for a match.

@@ -46,6 +46,8 @@ class WalkProgram {
 
   /// Fills roles and targets. False: the match has another shape, or lacks a value.
   bool run(const World& world, std::span<const DartId> node_darts, MatchRoles& out);
+  /// The darts that the last run came by, its nodes first.
+  [[nodiscard]] const std::vector<DartId>& darts() const { return darts_; }
 
  private:
   std::vector<DartId> darts_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/force_watch.h"
+
 namespace gmsim::engine {
 
 namespace ir = compile::ir;
@@ -84,6 +86,12 @@ std::vector<std::uint32_t> ShapeInputs::own_widths() const {
   std::vector<std::uint32_t> widths(draws_.size(), 1);
   for (const Derived& derived : derived_) widths.push_back(derived.width);
   return widths;
+}
+
+bool ShapeInputs::own_stay_in_orbits() const {
+  return std::all_of(derived_.begin(), derived_.end(), [&](const Derived& derived) {
+    return stays_in_orbit(context_.state.program.schema, derived.embedding);
+  });
 }
 
 std::optional<support::Diagnostic> ShapeInputs::read_own(TreeEvaluator& reader,

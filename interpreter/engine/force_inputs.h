@@ -47,6 +47,8 @@ class ShapeInputs {
   [[nodiscard]] std::uint32_t own_count() const { return own_count_; }
   /// The same value by value: how many numbers each has.
   [[nodiscard]] std::vector<std::uint32_t> own_widths() const;
+  /// Do all of them change only when an orbit of a role holds a changed dart?
+  [[nodiscard]] bool own_stay_in_orbits() const;
   /// Appends them for the match with these roles.
   std::optional<support::Diagnostic> read_own(TreeEvaluator& reader,
                                               std::span<const compile::Role> roles,

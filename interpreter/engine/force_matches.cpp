@@ -109,6 +109,7 @@ std::optional<support::Diagnostic> ForceMatches::enter(const Visit& visit) {
     match_.nodes.push_back(found_.dart(0, c));
   const std::optional<std::uint32_t> shape = shapes_.classify(match_.nodes, match_.roles);
   if (!shape) {
+    excluded_some_ = excluded_some_ || shapes_.failure().not_here;
     if (shapes_.failure().not_here) return std::nullopt;
     return shapes_.failure().diagnostic;
   }

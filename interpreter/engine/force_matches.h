@@ -40,6 +40,8 @@ class ForceMatches {
   /// The match of the orbit that holds this dart, if there is one.
   std::optional<support::Diagnostic> find_at(DartId dart, const Visit& visit);
 
+  /// Was there an orbit where the pattern holds, but a condition or a missing value stood against it?
+  [[nodiscard]] bool excluded_some() const { return excluded_some_; }
   [[nodiscard]] const compile::ShapeSet& shapes() const { return shapes_; }
   [[nodiscard]] const ShapeInputs& inputs(std::uint32_t shape) const { return *inputs_[shape]; }
 
@@ -65,6 +67,7 @@ class ForceMatches {
   Frame frame_;
   Match found_;
   ForceMatch match_;
+  bool excluded_some_ = false;
 };
 
 }  // namespace gmsim::engine

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 #include "engine/force_linear.h"
@@ -182,14 +183,22 @@ void MergedTable::add_group(std::span<const Candidate> group) {
     }
   }
   if (plan_.counted) sums_.push_back(static_cast<double>(group.size()));
-  table_.add(group.front().key, group.front().ends, sums_);
+  remember(group, table_.add(group.front().key, group.front().ends, sums_));
 }
 
 void MergedTable::rebuild(const MatchTable& atomic, const gmap::EmbeddingStore& store) {
   table_.clear();
+  by_key_.clear();
+  std::vector<std::uint32_t> rows(atomic.size());
+  std::iota(rows.begin(), rows.end(), 0u);
+  group(atomic, store, rows);
+}
+
+void MergedTable::group(const MatchTable& atomic, const gmap::EmbeddingStore& store,
+                        std::span<const std::uint32_t> rows) {
   values_.clear();
   std::vector<Candidate> candidates;
-  for (std::uint32_t row = 0; row < atomic.size(); ++row) {
+  for (const std::uint32_t row : rows) {
     candidates.push_back({atomic.key(row),
                           {atomic.rows(plan_.ends[0])[row], atomic.rows(plan_.ends[1])[row]},
                           static_cast<std::uint32_t>(values_.size())});
@@ -205,7 +214,35 @@ void MergedTable::rebuild(const MatchTable& atomic, const gmap::EmbeddingStore& 
   // Rows in the order of keys, as in the table of the matches: neighbours in the mesh stay close.
   std::sort(groups.begin(), groups.end(),
             [](const auto& a, const auto& b) { return a.front().key < b.front().key; });
-  for (const auto& group : groups) add_group(group);
+  for (const auto& members : groups) add_group(members);
+}
+
+// ---- who is in which group ----------------------------------------------------------------------
+
+void MergedTable::remember(std::span<const Candidate> group, std::uint32_t row) {
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const std::size_t key = types::index(group[k].key);
+    if (by_key_.size() <= key) by_key_.resize(key + key / 2 + 1);
+    by_key_[key] = {group.front().key, k + 1 < group.size() ? group[k + 1].key : gmap::kNoDart, row};
+  }
+}
+
+std::uint32_t MergedTable::group_of(DartId key) const {
+  if (types::index(key) >= by_key_.size()) return gmap::kNoRow;
+  const DartId head = by_key_[types::index(key)].head;
+  return head == gmap::kNoDart ? gmap::kNoRow : by_key_[types::index(head)].row;
+}
+
+void MergedTable::members(std::uint32_t row, std::vector<DartId>& keys) const {
+  for (DartId key = table_.key(row); key != gmap::kNoDart; key = by_key_[types::index(key)].next)
+    keys.push_back(key);
+}
+
+void MergedTable::remove(std::uint32_t row) {
+  for (DartId key = table_.key(row); key != gmap::kNoDart;)
+    key = std::exchange(by_key_[types::index(key)], Member{}).next;
+  table_.remove(row);
+  if (row < table_.size()) by_key_[types::index(table_.key(row))].row = row;
 }
 
 }  // namespace gmsim::engine

@@ -38,6 +38,18 @@ class MergedTable {
 
   /// Groups the matches of a table anew.
   void rebuild(const MatchTable& atomic, const gmap::EmbeddingStore& store);
+
+  // Local changes: a group is dissolved, and its matches, with others, are grouped again.
+  /// Row of the group that holds the match with this key; kNoRow when none does.
+  [[nodiscard]] std::uint32_t group_of(DartId key) const;
+  /// Appends the keys of a group's matches.
+  void members(std::uint32_t row, std::vector<DartId>& keys) const;
+  /// Takes a group out; the last one moves into its row.
+  void remove(std::uint32_t row);
+  /// Groups these rows of the table of matches; new groups are appended.
+  void group(const MatchTable& atomic, const gmap::EmbeddingStore& store,
+             std::span<const std::uint32_t> rows);
+
   [[nodiscard]] const MatchTable& table() const { return table_; }
   [[nodiscard]] const ForceKernel& kernel() const { return kernel_; }
   [[nodiscard]] const ForceKernel& product();
@@ -54,6 +66,7 @@ class MergedTable {
   [[nodiscard]] bool before(const Candidate& a, const Candidate& b) const;
   void read_values(const MatchTable& atomic, const gmap::EmbeddingStore& store, std::uint32_t row);
   void add_group(std::span<const Candidate> group);
+  void remember(std::span<const Candidate> group, std::uint32_t row);
 
   MergePlan plan_;
   std::uint32_t value_count_ = 0;
@@ -62,6 +75,12 @@ class MergedTable {
   std::unique_ptr<ForceKernel> product_;
   std::vector<double> values_;
   std::vector<double> sums_;
+  struct Member {
+    DartId head = gmap::kNoDart;  ///< key of the group
+    DartId next = gmap::kNoDart;  ///< next match of the group
+    std::uint32_t row = 0;        ///< of the group; of heads only
+  };
+  std::vector<Member> by_key_;
 };
 
 }  // namespace gmsim::engine

@@ -2,7 +2,8 @@
 #include "engine/force_sums.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "support/check.h"
 
 namespace gmsim::engine {
 
@@ -54,6 +55,39 @@ void ForceSums::append(std::span<const ForceBlock> of_one_interaction) {
       slots_[list.begin + list.count++] = block.slot(root, entry.row);
     }
   }
+}
+
+void ForceSums::grow(Row vertices) {
+  if (vertices > lists_.size()) lists_.resize(vertices);
+}
+
+std::span<std::uint32_t> ForceSums::with_room(Row vertex) {
+  List& list = lists_[vertex];
+  if (list.count == list.capacity) {  // moves to the end; the old place is lost until a rebuild
+    const auto begin = static_cast<std::uint32_t>(slots_.size());
+    list.capacity = list.count + list.count / 2 + 4;
+    slots_.resize(begin + list.capacity);
+    std::copy_n(slots_.begin() + list.begin, list.count, slots_.begin() + begin);
+    list.begin = begin;
+  }
+  return {slots_.data() + list.begin, ++list.count};
+}
+
+void ForceSums::erase(Row vertex, std::uint32_t slot) {
+  List& list = lists_[vertex];
+  const auto begin = slots_.begin() + list.begin, end = begin + list.count;
+  const auto at = std::find(begin, end, slot);
+  GMSIM_CHECK(at != end, "a force that is taken away was not there");
+  std::copy(at + 1, end, at);
+  --list.count;
+}
+
+void ForceSums::rename(Row vertex, std::uint32_t from, std::uint32_t to) {
+  const List& list = lists_[vertex];
+  const auto begin = slots_.begin() + list.begin, end = begin + list.count;
+  const auto at = std::find(begin, end, from);
+  GMSIM_CHECK(at != end, "a force that moves was not there");
+  *at = to;
 }
 
 void ForceSums::sum(const VertexRecord* forces, Row begin, Row end, VertexRecord* out) const {

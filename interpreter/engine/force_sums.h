@@ -33,6 +33,20 @@ class ForceSums {
  public:
   /// `blocks` in the order of their interactions; those of one interaction have different keys.
   void rebuild(std::span<const ForceBlock> blocks, Row vertices);
+  /// Makes room for new vertices, without forces.
+  void grow(Row vertices);
+  // Local changes. `before(a, b)` of two slots: does a come first in the canonical order?
+  template <typename Before>
+  void insert(Row vertex, std::uint32_t slot, const Before& before) {
+    const std::span<std::uint32_t> list = with_room(vertex);
+    std::size_t at = list.size() - 1;
+    for (; at > 0 && before(slot, list[at - 1]); --at) list[at] = list[at - 1];
+    list[at] = slot;
+  }
+  void erase(Row vertex, std::uint32_t slot);
+  /// The same force is in another slot now.
+  void rename(Row vertex, std::uint32_t from, std::uint32_t to);
+
   /// out[v] := sum of the forces on vertex v, for begin <= v < end.
   void sum(const VertexRecord* forces, Row begin, Row end, VertexRecord* out) const;
   [[nodiscard]] std::span<const std::uint32_t> slots(Row vertex) const {
@@ -48,6 +62,8 @@ class ForceSums {
     std::uint32_t capacity = 0;
   };
   void append(std::span<const ForceBlock> of_one_interaction);
+  /// The list of a vertex with one entry more, which is the last.
+  std::span<std::uint32_t> with_room(Row vertex);
 
   std::vector<List> lists_;  // by vertex row
   std::vector<std::uint32_t> slots_;

@@ -8,6 +8,8 @@
 #include "engine/force_kernel.h"
 #include "engine/force_matches.h"
 #include "engine/force_merge.h"
+#include "engine/force_watch.h"
+#include "engine/force_ways.h"
 #include "engine/match_table.h"
 
 namespace gmsim::engine {
@@ -43,16 +45,34 @@ class ShapeKernels {
 /// merged form of it.
 class InteractionTables {
  public:
-  InteractionTables(const ForceContext& context, std::uint32_t number, bool merge);
-
-  /// Finds all matches anew.
-  std::optional<support::Diagnostic> rebuild();
-
   struct Place {
     std::uint32_t shape = kNowhere;
     std::uint32_t row = 0;
   };
   static constexpr std::uint32_t kNowhere = 0xffffffffu;
+
+  InteractionTables(const ForceContext& context, std::uint32_t number, bool merge);
+
+  /// Finds all matches anew.
+  std::optional<support::Diagnostic> rebuild();
+
+  // Repairing single matches. After a change of links, look at the matches that watch a vertex with a
+  // changed dart, and at the orbits of the hooks near changed darts.
+
+  /// Is every match decided by the links that it watches? Else only rebuild() is safe.
+  [[nodiscard]] bool repairable() const { return repairable_ && !finder_.excluded_some(); }
+  [[nodiscard]] const VertexWatch& watch() const { return watch_; }
+  /// Appends the darts from which a match that holds this dart would start.
+  void hooks_near(DartId dart, std::vector<DartId>& hooks) const;
+  /// Finds and adds the match of an orbit that has none in the tables; empty when there is none.
+  std::optional<support::Diagnostic> find_at(DartId dart, std::optional<DartId>& key);
+  /// The dart from which a match was found.
+  [[nodiscard]] DartId hook(Place place) const;
+  /// Takes a match out; the last one of its table moves into its row.
+  void remove(DartId key);
+  /// Makes all merged tables anew.
+  void merge_again();
+
 
   [[nodiscard]] std::uint32_t number() const { return number_; }
   [[nodiscard]] std::size_t shape_count() const { return tables_.size(); }
@@ -81,6 +101,7 @@ class InteractionTables {
  private:
   void add(const ForceMatch& match);
   void add_shape();
+  void watch_vertices(const ForceMatch& match);
 
   const ForceContext& context_;
   std::uint32_t number_;
@@ -90,6 +111,10 @@ class InteractionTables {
   std::vector<std::unique_ptr<ShapeKernels>> kernels_;
   std::vector<std::unique_ptr<MergedTable>> merged_;
   std::vector<Place> places_;                            // by key
+  std::vector<Way> ways_;                                // back to the hook
+  VertexWatch watch_;
+  bool repairable_ = true;
+  std::vector<DartId> watched_;                          // work space
 };
 
 }  // namespace gmsim::engine

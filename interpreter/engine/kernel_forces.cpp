@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::uint32_t kMatchesPerTask = 1024;
 constexpr Row kVerticesPerTask = 2048;
+// Room for matches to come, so that a repair seldom has to lay everything out again.
+constexpr std::uint32_t kSpareShare = 8;
+constexpr std::uint32_t kSpare = 16;
 
 }  // namespace
 
@@ -33,25 +36,34 @@ bool KernelForces::rebuild() {
   return true;
 }
 
-void KernelForces::refresh(std::span<const DartId>) { rebuild(); }
+void KernelForces::refresh(std::span<const DartId> touched) {
+  if (touched.empty() || error_ || !repair(touched)) rebuild();
+}
 
 void KernelForces::lay_out() {
   blocks_.clear();
   jobs_.clear();
   product_jobs_.clear();
-  tasks_.clear();
-  for (const auto& of : interactions_)
+  first_block_.clear();
+  for (const auto& of : interactions_) {
+    first_block_.push_back(blocks_.size());
     for (std::uint32_t shape = 0; shape < of->shape_count(); ++shape) add_block(*of, shape);
+  }
   forces_.resize(blocks_.empty() ? 0 : blocks_.back().end());
   for (Job& job : jobs_) bind_outputs(job);
   sums_.rebuild(blocks_, context_.vertices().row_end());
+  add_tasks();
+  const std::span<const Row> rows = context_.vertices().rows();
+  vertex_of_.assign(rows.begin(), rows.end());
+  stale_ = false;
 }
 
 void KernelForces::add_block(InteractionTables& of, std::uint32_t shape) {
   const MergedTable* merged = of.merged(shape);
   const MatchTable& table = merged != nullptr ? merged->table() : of.table(shape);
   ForceBlock block{.table = &table, .roles = {}, .interaction = of.number(),
-                   .first = blocks_.empty() ? 0 : blocks_.back().end(), .capacity = table.size()};
+                   .first = blocks_.empty() ? 0 : blocks_.back().end(),
+                   .capacity = table.size() + table.size() / kSpareShare + kSpare};
   for (std::uint32_t root = 0; root < of.shape(shape).forces.size(); ++root)
     block.roles.push_back(merged != nullptr ? root : of.shape(shape).forces[root].role);
   jobs_.push_back({.of = &of, .shape = shape, .table = &table,
@@ -59,13 +71,15 @@ void KernelForces::add_block(InteractionTables& of, std::uint32_t shape) {
                    .merged = merged != nullptr, .block = blocks_.size(), .inputs = {},
                    .outputs = {}});
   blocks_.push_back(std::move(block));
-  add_tasks(static_cast<std::uint32_t>(jobs_.size()) - 1);
 }
 
-void KernelForces::add_tasks(std::uint32_t job) {
-  const std::uint32_t count = jobs_[job].table->size();
-  for (std::uint32_t begin = 0; begin < count; begin += kMatchesPerTask)
-    tasks_.push_back({job, begin, std::min(count, begin + kMatchesPerTask)});
+void KernelForces::add_tasks() {
+  tasks_.clear();
+  for (std::uint32_t job = 0; job < jobs_.size(); ++job) {
+    const std::uint32_t count = jobs_[job].table->size();
+    for (std::uint32_t begin = 0; begin < count; begin += kMatchesPerTask)
+      tasks_.push_back({job, begin, std::min(count, begin + kMatchesPerTask)});
+  }
 }
 
 void KernelForces::bind_outputs(Job& job) {

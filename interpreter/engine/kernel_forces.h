@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
 #include <set>
 #include <utility>
@@ -61,13 +62,41 @@ class KernelForces final : public ForceField {
     std::uint32_t match = 0;
   };
 
+  /// What is left to do for one interaction while its matches are repaired.
+  struct Repair {
+    InteractionTables* of = nullptr;
+    std::vector<std::vector<DartId>> regroup;  ///< by shape: keys of matches to be merged again
+  };
+
   [[nodiscard]] bool reads(InputOrigin::Kind kind) const;
   [[nodiscard]] ForceMoment moment(const Motion& motion, double time, double dt) const;
   bool rebuild();
   /// Blocks, jobs, tasks and sums for the tables as they are.
   void lay_out();
+
+  // Repairs where links have changed (kernel_forces_repair.cpp). While `stale_` the tables are right,
+  // but blocks and sums have to be laid out again.
+
+  /// False when an interaction cannot be repaired.
+  bool repair(std::span<const DartId> touched);
+  void repair(InteractionTables& of, std::span<const DartId> touched);
+  void find_again(Repair& repair, std::span<const DartId> hooks);
+  /// Rows of the vertices that hold or held a touched dart, into `changed_`.
+  void find_changed(std::span<const DartId> touched);
+  void remember_vertices(std::span<const DartId> touched);
+  void take_out(Repair& repair, DartId key);
+  void put_in(Repair& repair, DartId key);
+  void dissolve(Repair& repair, std::uint32_t shape, std::uint32_t group);
+  void dissolve_between(Repair& repair, std::uint32_t shape, std::array<Row, 2> ends);
+  void merge_again(Repair& repair);
+  [[nodiscard]] ForceBlock& block_of(const InteractionTables& of, std::uint32_t shape);
+  [[nodiscard]] std::size_t block_at(std::uint32_t slot) const;
+  /// The forces of one row enter or leave the sums.
+  void link(const ForceBlock& block, std::uint32_t row);
+  void unlink(const ForceBlock& block, std::uint32_t row);
+  [[nodiscard]] bool comes_before(std::uint32_t a, std::uint32_t b) const;
   void add_block(InteractionTables& of, std::uint32_t shape);
-  void add_tasks(std::uint32_t job);
+  void add_tasks();
   void bind_outputs(Job& job);
   /// Runs jobs over their tables, then sums into `out`.
   bool run(std::vector<Job>& jobs, const ForceMoment& moment, std::span<VertexRecord> out);
@@ -90,6 +119,10 @@ class KernelForces final : public ForceField {
   std::vector<Job> jobs_, product_jobs_;  // parallel to blocks_
   std::vector<Task> tasks_;
   ForceSums sums_;
+  std::vector<std::size_t> first_block_;  // by interaction
+  std::vector<Row> vertex_of_;            // by dart, as of the last refresh
+  std::vector<Row> changed_;
+  bool stale_ = false;
   ForceThreads threads_;
   std::vector<KernelScratch> scratch_;    // by worker
   std::vector<Failure> failures_;         // by worker

@@ -9,12 +9,13 @@ namespace gmsim::engine {
 namespace {
 
 std::string parameter_text(const compile::BodyParameter& parameter,
-                           const ParameterBinding& binding) {
+                           const ParameterBinding& binding, const gmap::EmbeddingSchema& schema) {
   switch (binding.kind) {
     case ParameterBinding::Kind::Uniform:
       return fmt::format("{} = {} (constant)", parameter.name, types::to_string(binding.uniform));
     case ParameterBinding::Kind::Stored:
-      return fmt::format("{}: a column on {}", parameter.name, types::to_string(parameter.type));
+      return fmt::format("{}: a column on {}", parameter.name,
+                         types::to_string(schema[binding.embedding].orbit));
     case ParameterBinding::Kind::OfTime:
       return fmt::format("{}: computed at every stage", parameter.name);
   }
@@ -53,12 +54,14 @@ std::string KernelForces::explain() const {
   const gmap::EmbeddingSchema& schema = context_.state.program.schema;
   std::string text = "forces\n";
   for (const auto& of : interactions_) {
-    text += fmt::format("  {} on {}{}\n", of->body().name, types::to_string(of->body().orbit),
-                        of->match_count() == 0 ? ": holds nowhere, not computed" : "");
+    const char* remark = of->match_count() == 0 ? ": holds nowhere, not computed"
+                         : of->repairable()     ? ""
+                                                : ": found anew after every change of the map";
+    text += fmt::format("  {} on {}{}\n", of->body().name, types::to_string(of->body().orbit), remark);
     if (of->match_count() == 0) continue;
     const auto& bindings = context_.active[of->number()].parameters;
     for (std::size_t k = 0; k < bindings.size(); ++k)
-      text += fmt::format("    {}\n", parameter_text(of->body().parameters[k], bindings[k]));
+      text += fmt::format("    {}\n", parameter_text(of->body().parameters[k], bindings[k], schema));
   }
   text += "tables\n";
   for (const Job& job : jobs_) {
