@@ -14,9 +14,8 @@ int run_explain(Session& session) {
   const auto simulation = make_simulation(session, *scene);
   if (!simulation) return session.finish();
   for (const scene::BodySummary& body : scene->bodies)
-    session.out << fmt::format("body {}: {} points, {} cells\n",
-                               body.name.empty() ? "(unnamed)" : body.name, body.vertices.size(),
-                               body.cells);
+    session.out << fmt::format("body `{}`: {} points, {} cells\n", body.name,
+                               body.vertices.size(), body.cells);
   session.out << simulation->explain();
   return session.finish();
 }

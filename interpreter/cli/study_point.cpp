@@ -37,7 +37,7 @@ std::vector<std::string> overrides(const StudyPoint& point) {
   } else {
     texts.push_back(fmt::format("integrator.dt={}", point.dt));
   }
-  texts.emplace_back("integrator.on_unstable=error");
+  texts.emplace_back("integrator.on_unstable=warn");  // so that the limit is known
   return texts;
 }
 
@@ -83,10 +83,17 @@ bool StudyScene::advance(engine::Simulation& simulation, support::Diagnostics& d
 void StudyScene::run(StudyPoint& point) const {
   support::Diagnostics diagnostics;
   const auto simulation = make(diagnostics);
-  if (simulation && std::isfinite(simulation->limit().dt_global))
-    point.dt_over_limit = (point.adaptive ? simulation->dt() : point.dt) /
-                          simulation->limit().dt_global;
-  if (!simulation || !advance(*simulation, diagnostics)) {
+  if (!simulation) {
+    point.problem = first_error(diagnostics);
+    return;
+  }
+  const double limit = simulation->limit().dt_global;
+  if (std::isfinite(limit)) point.dt_over_limit = simulation->dt() / limit;
+  if (!point.adaptive && point.dt_over_limit > 1) {
+    point.problem = fmt::format("unstable: the limit is {:.4g} s", limit);
+    return;
+  }
+  if (!advance(*simulation, diagnostics)) {
     point.problem = first_error(diagnostics);
     return;
   }

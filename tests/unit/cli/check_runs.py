@@ -116,7 +116,7 @@ class WholeRuns(RunTest):
 
     def test_series_has_energies_that_add_up(self):
         swing = SCENE.replace(", damping: 0.005", "").replace("gravity: [0, 0, -9.81]", "")
-        push = 'initial: [ { velocity: "(0, 0, -1) * (0.3 m - position.y) / (1 m)" } ]'
+        push = 'initial: [ { velocity: "(0, 0, position.y - 0.3) / 0.5 [s]" } ]'
         (self.folder / "scene.yaml").write_text(swing.replace("    interactions", f"    {push}\n    interactions"))
         self.run_scene("--set", "output.report_every=1e-3")
         with h5py.File(self.folder / "scene.vtkhdf") as file:

@@ -1,0 +1,1 @@
+run %d/expectations_met.yaml --trace steps
