@@ -16,7 +16,7 @@ void check_type(ExprChecker& checker, ItemContext& context, const WantedValue& w
                 ExprPtr& value) {
   if (wanted.type.kind != ValueKind::Error) {
     value = checker.coerce(value, {.type = wanted.type, .unit = wanted.unit,
-                                   .scale = wanted.unit_scale, .what = "this"});
+                                   .scale = wanted.unit_scale, .what = "the value"});
     return;
   }
   value = settle(value);

@@ -97,7 +97,10 @@ class Validator {
       if (!found.empty()) return {};
       found = row.path;
     }
-    return found.empty() ? found : fmt::format("`{}` is a key of scenes", found);
+    if (found.empty()) return found;
+    const std::size_t dot = found.rfind('.');
+    if (dot == std::string::npos) return fmt::format("`{}` stands at the top of a scene", key);
+    return fmt::format("`{}` belongs under `{}`", key, found.substr(0, dot));
   }
 
   /// Missing keys are asked for, defaults filled in; sections within get theirs.

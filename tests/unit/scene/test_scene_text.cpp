@@ -96,7 +96,7 @@ TEST_CASE("keys: unknown, misspelt, misplaced, twice, missing") {
   CHECK(errors_of("method: rk4, dt", "method: rk4, t") ==
         lines({"18:28 unknown-key: there is no key `t` here"}));
   CHECK(errors(small("dt: 1\n")) == lines({"7:1 unknown-key: there is no key `dt` here"}));
-  CHECK(SceneText(small("dt: 1\n")).rendered().find("`integrator.dt` is a key of scenes") !=
+  CHECK(SceneText(small("dt: 1\n")).rendered().find("`dt` belongs under `integrator`") !=
         std::string::npos);
   CHECK(errors_of("    mass: 0.1\n", "") == lines({"4:5 missing-key: the key `mass` is missing"}));
   CHECK(errors_of("    mass: 0.1\n", "    mass:\n") ==
