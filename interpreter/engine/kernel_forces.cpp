@@ -2,6 +2,7 @@
 #include "engine/kernel_forces.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "engine/force_evaluate.h"
 #include "engine/force_report.h"
@@ -10,13 +11,19 @@ namespace gmsim::engine {
 
 namespace {
 
-constexpr std::uint32_t kMatchesPerTask = 1024;
-constexpr Row kVerticesPerTask = 2048;
+constexpr std::uint32_t kMatchesPerTask = 512;
+constexpr Row kVerticesPerTask = 1024;
 // Room for matches to come, so that a repair seldom has to lay everything out again.
 constexpr std::uint32_t kSpareShare = 8;
 constexpr std::uint32_t kSpare = 16;
 
 }  // namespace
+
+void ThreadProbe::note(double seconds) {
+  double& fastest = fastest_[runs_ % 2];
+  fastest = std::min(fastest, seconds);
+  ++runs_;
+}
 
 KernelForces::KernelForces(const State& state, const Model& model, unsigned threads,
                            ForceOptions options)
@@ -117,8 +124,19 @@ bool KernelForces::product(const Motion& motion, double time, std::span<const Ve
 
 bool KernelForces::run(std::vector<Job>& jobs, const ForceMoment& moment,
                        std::span<VertexRecord> out) {
-  const bool alone = threads_.count() == 1;
-  if (error_ || !run_tables(jobs, moment, alone)) return false;
+  if (error_) return false;
+  if (threads_.count() == 1) return run_stages(jobs, moment, out, true);
+  if (probe_.decided()) return run_stages(jobs, moment, out, probe_.alone());
+  const auto start = std::chrono::steady_clock::now();
+  if (!run_stages(jobs, moment, out, probe_.alone())) return false;
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+  probe_.note(passed.count());
+  return true;
+}
+
+bool KernelForces::run_stages(std::vector<Job>& jobs, const ForceMoment& moment,
+                              std::span<VertexRecord> out, bool alone) {
+  if (!run_tables(jobs, moment, alone)) return false;
   sum(out, alone);
   return true;
 }

@@ -16,6 +16,24 @@
 
 namespace gmsim::engine {
 
+/// Finds out on the first evaluations whether sharing the work pays. Whatever it says, the forces have
+/// the same bits.
+class ThreadProbe {
+ public:
+  [[nodiscard]] bool decided() const { return runs_ == 2 * kRuns; }
+  /// Is the next evaluation to be run by one thread?
+  [[nodiscard]] bool alone() const { return decided() ? alone_is_faster() : runs_ % 2 == 0; }
+  void note(double seconds);
+  void restart() { *this = ThreadProbe(); }
+
+ private:
+  static constexpr int kRuns = 8;  // of each kind; the fastest counts
+  [[nodiscard]] bool alone_is_faster() const { return fastest_[0] <= fastest_[1]; }
+
+  int runs_ = 0;
+  double fastest_[2] = {1e30, 1e30};  // s; alone, shared
+};
+
 /// Forces by kernels over match tables: first the forces of all matches, block by block, then their
 /// sums vertex by vertex. Both are shared out among threads.
 class KernelForces final : public ForceField {
@@ -100,6 +118,8 @@ class KernelForces final : public ForceField {
   void bind_outputs(Job& job);
   /// Runs jobs over their tables, then sums into `out`.
   bool run(std::vector<Job>& jobs, const ForceMoment& moment, std::span<VertexRecord> out);
+  bool run_stages(std::vector<Job>& jobs, const ForceMoment& moment, std::span<VertexRecord> out,
+                  bool alone);
   bool run_tables(std::vector<Job>& jobs, const ForceMoment& moment, bool alone);
   void sum(std::span<VertexRecord> out, bool alone);
   /// Numbers that a kernel with one root leaves for each match of a shape, `values` long enough.
@@ -123,6 +143,7 @@ class KernelForces final : public ForceField {
   std::vector<Row> vertex_of_;            // by dart, as of the last refresh
   std::vector<Row> changed_;
   bool stale_ = false;
+  ThreadProbe probe_;
   ForceThreads threads_;
   std::vector<KernelScratch> scratch_;    // by worker
   std::vector<Failure> failures_;         // by worker
