@@ -151,7 +151,7 @@ TEST_CASE("a wanted type and unit are asked for") {
   CHECK(messages("3", {.type = {ValueKind::Real}, .unit = newtons}) == "");
   CHECK(messages("3 [N]", {.type = {ValueKind::Real}, .unit = newtons}) == "");
   CHECK(messages("mass", {.type = {ValueKind::Real}, .unit = newtons}) ==
-        "this is in [N], this is in [kg]");
+        "the value is in [N], this is in [kg]");
   CHECK(messages("mass", {.type = {ValueKind::Bool}}) == "the value must be bool, this is real");
   CHECK(messages("mass +", {.type = {ValueKind::Real}}) != "");
 }
