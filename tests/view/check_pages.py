@@ -160,6 +160,9 @@ def check_texts(checks):
                   f"label: {texts.get('label')!r}")
     checks.expect(re.fullmatch(r"[\d.]+ m/s", texts.get("high", "")), f"legend: {texts.get('high')!r}")
     checks.expect(texts.get("meaning") == "length, by point", f"legend: {texts.get('meaning')!r}")
+    high = {spread: float(checks.texts("chain", f"#frame=2&field=velocity&range={spread}")[0]["high"].split()[0])
+            for spread in ("run", "frame")}
+    checks.expect(high["frame"] < 0.5 * high["run"], f"largest speed of the run and of a frame: {high}")
     checks.expect(checks.texts("sheet", "#frame=-1")[1] == 60, "#frame=-1 is not the last frame")
     checks.expect(checks.texts("sheet", "#frame=5000")[1] == 60, "#frame=5000 is not the last frame")
     checks.expect(checks.texts("chain", "")[1] != 0, "a page without #frame does not play")

@@ -40,6 +40,10 @@ export class Controls {
     element('play').addEventListener('click', () => (this.playing ? this.pause() : this.play()));
     element('field').addEventListener('change', () => this.setField(Number(element('field').value)));
     element('edges').addEventListener('change', () => this.drawing.setEdges(element('edges').checked));
+    element('of_frame').addEventListener('change', () => {
+      this.drawing.setOfFrame(element('of_frame').checked);
+      this.showLegend();
+    });
     addEventListener('hashchange', () => this.readHash(null));
     addEventListener('keydown', (event) => this.key(event));
     const canvas = this.drawing.renderer.domElement;
@@ -65,7 +69,7 @@ export class Controls {
     event.preventDefault();
   }
 
-  /** #frame=60&field=velocity&edges=off; the frame by its number in the file. */
+  /** #frame=60&field=velocity&edges=off&range=frame; the frame by its number in the file. */
   readHash(firstField) {
     const hash = new URLSearchParams(location.hash.slice(1));
     element('notice').textContent = '';
@@ -78,6 +82,11 @@ export class Controls {
     if (hash.has('edges')) {
       element('edges').checked = hash.get('edges') !== 'off';
       this.drawing.setEdges(element('edges').checked);
+    }
+    if (hash.has('range')) {
+      element('of_frame').checked = hash.get('range') === 'frame';
+      this.drawing.setOfFrame(element('of_frame').checked);
+      this.showLegend();
     }
   }
 
@@ -97,16 +106,20 @@ export class Controls {
   setField(number, draw = true) {
     element('field').value = number;
     element('legend').hidden = number < 0;
-    if (number >= 0) this.showLegend(this.run.head.fields[number]);
     if (draw) this.drawing.setField(number);
-    else this.drawing.field = number; // before the first frame is drawn
+    else this.drawing.field = number; // show() will draw it
+    if (draw) this.showLegend();
     this.describePick();
   }
 
-  showLegend(field) {
-    element('high').textContent = withUnit(field.high, field);
-    element('middle').textContent = withUnit((field.low + field.high) / 2, field);
-    element('low').textContent = withUnit(field.low, field);
+  showLegend() {
+    const number = this.drawing.field;
+    if (number < 0) return;
+    const field = this.run.head.fields[number];
+    const [low, high] = this.drawing.stepRange().map((step) => this.run.value(number, step));
+    element('high').textContent = withUnit(high, field);
+    element('middle').textContent = withUnit((low + high) / 2, field);
+    element('low').textContent = withUnit(low, field);
     const length = field.components > 1 ? 'length, ' : '';
     const origin = field.expression && field.expression !== field.name ? ` = ${field.expression}` : '';
     const gaps = field.not_finite > 0 ? `; grey: not finite` : '';
@@ -125,6 +138,7 @@ export class Controls {
       `${counted(mesh.allCells, 'cell', 'cells')}` +
       (frame.tears > 0 ? `, ${counted(frame.tears, 'tear', 'tears')}` : '');
     document.body.dataset.frame = frame.number;
+    this.showLegend();
     this.describePick();
   }
 

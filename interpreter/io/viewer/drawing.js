@@ -10,6 +10,7 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { COLOURS, PLAIN } from './colours.js';
+import { VALUE_STEPS } from './data.js';
 
 const LINE_WIDTH = 3; // pixels
 const OUTLINE_WIDTH = 2;
@@ -36,6 +37,7 @@ export class Drawing {
     this.run = run;
     this.field = -1;
     this.edges = true;
+    this.ofFrame = false; // colours go over the range of the frame shown, not of the run
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     container.append(this.renderer.domElement);
     this.scene = new Scene();
@@ -154,15 +156,31 @@ export class Drawing {
     }
   }
 
+  /** The least and the largest step that the colours stand for. */
+  stepRange() {
+    const whole = [0, VALUE_STEPS];
+    if (!this.ofFrame) return whole;
+    let [low, high] = [VALUE_STEPS, 0];
+    for (const step of this.run.values(this.frame, this.field)) {
+      if (step > VALUE_STEPS) continue;
+      low = Math.min(low, step);
+      high = Math.max(high, step);
+    }
+    return low <= high ? [low, high] : whole;
+  }
+
   /** Colours what is drawn by the field, and draws it. */
   colour() {
     const { mesh } = this;
+    const [low, high] = this.field < 0 ? [] : this.stepRange();
+    const colourOf = (step) => COLOURS[step > VALUE_STEPS ? step
+      : Math.round((step - low) / Math.max(high - low, 1) * VALUE_STEPS)];
     const paint = (corners, cells, perCell, into) => {
       const values = this.field < 0 ? null : this.run.values(this.frame, this.field);
       const byPoint = values && this.run.head.fields[this.field].on === 'point';
       for (let i = 0; i < corners.length; ++i) {
         const row = byPoint ? corners[i] : cells[Math.floor(i / perCell)];
-        const colour = values ? COLOURS[values[row]] : PLAIN;
+        const colour = values ? colourOf(values[row]) : PLAIN;
         colour.toArray(into, 3 * i);
       }
     };
@@ -178,6 +196,11 @@ export class Drawing {
 
   setField(field) {
     this.field = field;
+    this.colour();
+  }
+
+  setOfFrame(ofFrame) {
+    this.ofFrame = ofFrame;
     this.colour();
   }
 

@@ -1,0 +1,1 @@
+view %d/files/text.vtkhdf
