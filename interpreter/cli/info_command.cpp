@@ -142,7 +142,7 @@ void print_text(Session& session, const TrajectoryReader& reader,
   print_frames(session, reader);
   print_meshes(session, reader.run().dimension, overview);
   if (reader.summary().events > 0)
-    line(session.out, "tears", fmt::format("{}", reader.summary().events));
+    line(session.out, "tears", fmt::format("{} (--events)", reader.summary().events));
   print_fields(session, overview);
   print_series(session, overview, reader.summary().reports);
   print_origin(session, reader);
@@ -205,6 +205,29 @@ void print_rules(Session& session, const TrajectoryReader& reader) {
   }
 }
 
+/// "atomic_facet_force": entry `number` of a list of names.
+std::string name_at(const std::vector<std::string>& names, std::int32_t number) {
+  const bool known = number >= 0 && static_cast<std::size_t>(number) < names.size();
+  return known ? names[static_cast<std::size_t>(number)] : "?";
+}
+
+/// A line for each change, in the order in which they were made.
+void print_events(Session& session, const TrajectoryReader& reader) {
+  const auto events = reader.read_events(session.diagnostics);
+  if (!events) return;
+  session.out << fmt::format("{:>7}  {:>10}  {:>7}  {:<24}  {:>10}  {:>10}  {:<22}  {}\n", "step",
+                             "time", "frame", "criterion", "value", "threshold", "change",
+                             "at");
+  for (const auto& [event, frame] : *events)
+    session.out << fmt::format(
+        "{:>7}  {:>10.6g}  {:>7}  {:<24}  {:>10.6g}  {:>10.6g}  {:<22}  ({:.4g}, {:.4g}, {:.4g}), "
+        "dart {}, {} new\n",
+        event.step, event.time, frame, name_at(reader.run().criterion_names, event.criterion),
+        event.value, event.threshold, name_at(reader.run().rule_names, event.rule),
+        event.position[0], event.position[1], event.position[2], event.dart,
+        counted(event.new_vertices, "vertex", "vertices"));
+}
+
 }  // namespace
 
 int run_info(Session& session) {
@@ -215,6 +238,8 @@ int run_info(Session& session) {
     session.out << reader->run().scene;
   } else if (options.show_rules) {
     print_rules(session, *reader);
+  } else if (options.show_events) {
+    print_events(session, *reader);
   } else if (const auto overview = read_overview(*reader, session.diagnostics)) {
     if (options.json) print_json(session, *reader, *overview);
     else print_text(session, *reader, *overview);

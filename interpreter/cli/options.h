@@ -20,6 +20,7 @@ struct RunOptions {
   bool force = false;
   bool json = false;
   bool tree_kernel = false;
+  bool explain_tear = false;
   unsigned threads = 1;
   std::optional<double> max_wall;      ///< s
   std::vector<std::string> traces;     ///< PHASE or PHASE:RULE
@@ -45,6 +46,7 @@ struct FileOptions {
   bool json = false;
   bool show_scene = false;
   bool show_rules = false;
+  bool show_events = false;
   std::int64_t frames = 150;     ///< of a page, at most
   std::string field, title;
   bool force = false;

@@ -14,6 +14,7 @@ Examples:
   gmsim info run.vtkhdf --json | jq .frames           for programs
   gmsim info run.vtkhdf --scene > again.yaml          the scene that was run
   gmsim info run.vtkhdf --rules                       the rule files that were used
+  gmsim info run.vtkhdf --events                      what tore, when, where and why
 )";
 
 constexpr const char* kExportExamples = R"(Write the frames of a run in another format.
@@ -64,8 +65,12 @@ void add_info(CLI::App& app, Options& options) {
   add_file(*command, options);
   command->add_flag("--json", options.file.json, "as one JSON object");
   auto* scene = command->add_flag("--scene", options.file.show_scene, "print the scene and nothing else");
-  command->add_flag("--rules", options.file.show_rules, "print the rule files and nothing else")
-      ->excludes(scene);
+  auto* rules =
+      command->add_flag("--rules", options.file.show_rules, "print the rule files and nothing else")
+          ->excludes(scene);
+  command->add_flag("--events", options.file.show_events, "print what tore and nothing else")
+      ->excludes(scene)
+      ->excludes(rules);
   command->callback([&options] { options.command = Options::Command::Info; });
 }
 

@@ -14,6 +14,7 @@ Examples:
   gmsim hanging.yaml --set integrator.dt=5e-4 --set bodies.cloth.mass=0.2
   gmsim hanging.yaml --max-wall 60 --json > log.jsonl
   gmsim hanging.yaml --no-output                      only the numbers on the screen
+  gmsim hanging.yaml --explain-tear                   why nothing tore, or so little
 
 Ctrl-C ends the run after the current step and closes the file (exit code 4).
 )";
@@ -74,6 +75,8 @@ void add_run(CLI::App& app, Options& options) {
   command->add_flag("--force", options.run.force,
                     "write over what an earlier run left behind (NAME.part)");
   command->add_flag("--json", options.run.json, "log lines as JSON, one object a line");
+  command->add_flag("--explain-tear", options.run.explain_tear,
+                    "at the end, how near each criterion came to its threshold, where and when");
   command->add_option("--max-wall", options.run.max_wall, "stop after so many seconds (exit code 4)")
       ->check(CLI::NonNegativeNumber)
       ->type_name("SECONDS");

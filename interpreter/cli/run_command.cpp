@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/explain_tears.h"
 #include "cli/frame_clock.h"
 #include "cli/interrupt.h"
 #include "cli/run_cli.h"
@@ -185,6 +186,8 @@ class RunJob {
     if (output_)
       summary.file = (ending == RunEnding::WriteFailed ? io::part_path(file_) : file_).string();
     log_->end(summary);
+    if (options_.explain_tear && !options_.json)
+      explain_tears(*scene_, *simulation_, session_.out, session_.diagnostics);
   }
 
   Session& session_;

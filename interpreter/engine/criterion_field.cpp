@@ -159,6 +159,12 @@ CriterionField::Diagnostic CriterionField::judge(const ForceMoment& moment,
   survey_.matches = static_cast<std::uint32_t>(match_count());
   for (std::uint32_t shape = 0; shape < parts_.size(); ++shape)
     if (Diagnostic error = judge_part(*parts_[shape], shape, moment, requests)) return error;
+  if (survey_.where == gmap::kNoDart) return std::nullopt;
+  const bool nearer = nearest_.where == gmap::kNoDart ||
+                      survey_.value / survey_.threshold > nearest_.value / nearest_.threshold;
+  if (!nearer) return std::nullopt;
+  const VertexRecord& at = moment.position[context_.vertices().row(survey_.where)];
+  nearest_ = {survey_.value, survey_.threshold, moment.time, survey_.where, {at.x, at.y, at.z}};
   return std::nullopt;
 }
 

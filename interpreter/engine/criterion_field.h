@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,6 +43,13 @@ class CriterionField {
   /// how many of them count is the caller's.
   Diagnostic judge(const ForceMoment& moment, std::vector<TearRequest>& requests);
   [[nodiscard]] const Survey& survey() const { return survey_; }
+  /// The match that was nearest to tearing in all judgements so far, and when (s).
+  struct Nearest {
+    double value = 0, threshold = 0, time = 0;
+    DartId where = gmap::kNoDart;
+    std::array<double, 3> position{};  ///< of that dart's vertex, m
+  };
+  [[nodiscard]] const Nearest& nearest() const { return nearest_; }
   void keep_ratios(bool keep) { keep_ratios_ = keep; }
   [[nodiscard]] const TearPairing& pairing() const { return pairing_; }
   [[nodiscard]] const compile::CriterionBody& body() const { return body_; }
@@ -65,6 +73,7 @@ class CriterionField {
   std::vector<std::unique_ptr<Part>> parts_;  // by shape
   KernelScratch scratch_;
   Survey survey_;
+  Nearest nearest_;
   bool keep_ratios_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/criterion_field.h"
 #include "engine/force_field.h"
 #include "engine/model.h"
 #include "engine/stability_limit.h"
@@ -88,15 +89,12 @@ class Simulation {
   /// Takes over a state whose map or values were rewritten after sync(); `touched` as in Effects.
   /// False after an error.
   bool refresh(std::span<const DartId> touched, support::Diagnostics& diagnostics);
-  /// What each line of `tear:` saw at the end of the last step.
+  /// What a line of `tear:` has seen.
   struct CriterionReport {
-    std::uint32_t pairing = 0;
-    std::uint32_t matches = 0;
-    double value = 0, threshold = 0;   ///< of the match nearest to tearing
-    DartId where = gmap::kNoDart;
-    std::vector<double> ratios;        ///< value over threshold of all matches
+    CriterionField::Nearest nearest;   ///< since the start
+    std::vector<double> ratios;        ///< value over threshold of all matches, now
   };
-  /// Judges all criteria on the state as it is, and changes nothing.
+  /// Judges all criteria on the state as it is, and changes nothing; by line of `tear:`.
   std::optional<std::vector<CriterionReport>> survey(support::Diagnostics& diagnostics);
   /// A hash of positions, velocities and the clock, bit by bit.
   [[nodiscard]] std::uint64_t state_hash() const;

@@ -57,10 +57,8 @@ std::optional<std::vector<Simulation::CriterionReport>> Simulation::Implementati
   std::vector<TearRequest> requests;
   for (const auto& field : changes_->criteria().fields()) field->keep_ratios(true);
   auto problem = changes_->criteria().judge(now_.motion, now_.time, dt(), requests);
-  std::uint32_t number = 0;
   for (const auto& field : changes_->criteria().fields()) {
-    const CriterionField::Survey& seen = field->survey();
-    reports.push_back({number++, seen.matches, seen.value, seen.threshold, seen.where, seen.ratios});
+    reports.push_back({field->nearest(), field->survey().ratios});
     field->keep_ratios(false);
   }
   if (!problem) return reports;
