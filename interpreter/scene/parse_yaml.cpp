@@ -37,6 +37,7 @@ std::pair<std::string, std::string> in_plain_words(const std::string& problem) {
       {"illegal block entry", "a `-` cannot begin an entry here", ""},
       {"illegal flow end", "a bracket that closes nothing", ""},
       {"unknown token", "this cannot begin a value", "put the value in quotes"},
+      {"bad file", "this is nested deeper than the reader allows", ""},
       {"the referenced anchor is not defined", "no anchor has this name", ""}};
   for (const Row& row : kRows)
     if (problem.starts_with(row.theirs)) return {row.message, row.help};

@@ -19,6 +19,15 @@ const compile::ItemHead& head_of(const engine::NamedChange& change,
   return program.rules[change.target];
 }
 
+/// SI units in the unit in which a parameter is declared: a bare number is in that one.
+double scale_of(const engine::NamedChange& change, const std::string& parameter,
+                const check::RuleLibrary& library) {
+  const auto& parameters = change.operation ? library.operations[change.target].parameters
+                                            : library.rules[change.target].parameters;
+  const auto found = std::ranges::find(parameters, parameter, &check::Parameter::name);
+  return found == parameters.end() ? 1.0 : found->unit_scale;
+}
+
 /// The parameter of an item that a key names.
 const compile::Parameter* parameter_of(const YamlEntry& entry, const compile::ItemHead& item,
                                        ReadContext& context) {
@@ -56,8 +65,11 @@ std::vector<std::pair<const compile::Parameter*, SceneExpression>> read_paramete
   const compile::ItemHead& item = head_of(change, context.program);
   for (const YamlEntry& entry : params->entries)
     if (const compile::Parameter* parameter = parameter_of(entry, item, context))
-      result.emplace_back(parameter, context.expression(entry.value, {.type = parameter->type,
-                                                                      .unit = parameter->unit}));
+      result.emplace_back(
+          parameter, context.expression(entry.value, {.type = parameter->type,
+                                                      .unit = parameter->unit,
+                                                      .unit_scale = scale_of(change, entry.key,
+                                                                             context.library())}));
   return result;
 }
 

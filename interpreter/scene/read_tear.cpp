@@ -69,8 +69,11 @@ class TearReader {
     const compile::Parameter* parameter = criterion().find_parameter("threshold");
     const YamlNode* node = section_.find("threshold");
     if (parameter == nullptr || node == nullptr) return;
-    const SceneExpression value =
-        context_.expression(*node, {.type = parameter->type, .unit = parameter->unit});
+    const auto& declared = context_.library().criteria[tear_.criterion].parameters;
+    const auto threshold = std::ranges::find(declared, "threshold", &check::Parameter::name);
+    const double scale = threshold == declared.end() ? 1.0 : threshold->unit_scale;
+    const SceneExpression value = context_.expression(
+        *node, {.type = parameter->type, .unit = parameter->unit, .unit_scale = scale});
     tear_.threshold = parameter->slot;
     tear_.parameters.push_back({parameter->slot, value.code});
     if (!value.good() || !value.constant) return;

@@ -246,6 +246,20 @@ TEST_CASE(
             .find("unknown-name: `law` has no parameter `stiffnes`") != std::string::npos);
 }
 
+TEST_CASE("bare numbers for parameters of rules are in the unit of their declaration") {
+  const SceneFolder folder;
+  folder.write("lift.rule",
+               "rule lift(a) { left { a<1,2>; } param by : real [mm];\n"
+               "  a.position = a.position + (0, 0, 1) * by; }\n");
+  for (const char* by : {"250", "0.25 m", "\"25 [cm]\""}) {
+    const LoadedScene loaded(folder.write(
+        "s.yaml", "rules: [lift.rule]\n" + square("    prepare: [ { apply: lift, params: { by: " +
+                                                  std::string(by) + " }, times: 2 } ]\n")));
+    REQUIRE(loaded.rendered() == "");
+    CHECK(by_point(loaded, "position").at(3).at(2) == doctest::Approx(0.5));
+  }
+}
+
 TEST_CASE("mesh files lie beside the scene") {
   const SceneFolder folder;
   folder.write("roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");

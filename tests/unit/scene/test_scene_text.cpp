@@ -67,6 +67,8 @@ TEST_CASE("text that is no YAML") {
         lines({"1:4 yaml-syntax: a control character; a scene is UTF-8 text"}));
   CHECK(errors(small("seed: !!int 3\n")) ==
         lines({"7:7 yaml-syntax: tags such as `!!str` mean nothing in a scene"}));
+  CHECK(errors(std::string(20000, '[')).find("nested deeper than the reader allows") !=
+        std::string::npos);
   CHECK(errors("a: &x [*x]\n").find("this alias stands for a value that holds it") !=
         std::string::npos);
   CHECK(errors("{[1]: 2}\n").find("1:2 yaml-syntax: a key is a word, this is a list") == 0);
