@@ -63,6 +63,14 @@ StudyScene::StudyScene(Session& session, std::unique_ptr<scene::Scene> scene)
 std::unique_ptr<StudyScene> StudyScene::load(Session& session, StudyPoint& point) {
   auto scene = load_scene(session, overrides(point));
   if (!scene) return nullptr;
+  if (!scene->tears.empty() || !scene->rewrites.empty()) {
+    session.diagnostics.report(
+        {.kind = support::DiagnosticKind::Usage,
+         .message = "a scene that changes its mesh cannot be studied: points of two runs would not "
+                    "be the same",
+         .help = "leave `tear` and `rewrite` out, or compare runs by what they expect: `gmsim verify`"});
+    return nullptr;
+  }
   return std::unique_ptr<StudyScene>(new StudyScene(session, std::move(scene)));
 }
 

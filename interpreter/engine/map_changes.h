@@ -33,8 +33,11 @@ class MapChanges {
 
   /// Judges all criteria, which the last evaluation of forces must have been for, and applies what
   /// they ask for. `sync` puts the motion into the store; it is called before anything reads that.
+  /// Of pairings with `refresh` only the strongest request, with its ties, is applied; as long as
+  /// that changes something, another pass follows, for them alone, on the forces of the new map.
   Diagnostic tear(const Motion& motion, double time, double dt, const std::function<void()>& sync,
-                  TearOutcome& outcome);
+                  std::uint32_t pass, TearOutcome& outcome);
+  [[nodiscard]] bool judges_again() const;
 
   [[nodiscard]] const Criteria& criteria() const { return criteria_; }
   [[nodiscard]] Criteria& criteria() { return criteria_; }
@@ -46,6 +49,8 @@ class MapChanges {
   Diagnostic evaluate_arguments(const StandingRewrite& rewrite, Arguments& arguments);
   /// A new orbit that can carry an interaction gets it, with the scene's parameters.
   Diagnostic carry(Rewriter& rewriter, EmbeddingId presence, DartId smallest);
+  /// Leaves the requests that this pass applies.
+  void choose_for_pass(std::uint32_t pass);
   /// Holds that do not pass to all parts of a split vertex.
   void release_holds(const Effects& effects);
 
@@ -58,6 +63,7 @@ class MapChanges {
   TreeEvaluator evaluator_;
   std::vector<std::vector<DartId>> holds_;  // darts of the vertex of each of model_.holds
   std::vector<TearRequest> requests_;
+  std::vector<std::uint32_t> applied_;  // by pairing, in this step
 };
 
 }  // namespace gmsim::engine

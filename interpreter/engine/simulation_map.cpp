@@ -18,15 +18,17 @@ bool Simulation::Implementation::change_map(StepReport& report,
       if (!adopt_map(effects.touched, diagnostics)) return false;
     }
   }
-  if (!problem && changes_->has_criteria()) {
+  bool again = changes_->has_criteria();
+  for (std::uint32_t pass = 0; again && !problem; ++pass) {
     TearOutcome outcome;
-    problem = changes_->tear(now_.motion, now_.time, report.dt, [this] { sync(); }, outcome);
-    report.events = std::move(outcome.events);
-    report.dropped = outcome.dropped;
-    if (!outcome.effects.touched.empty()) {
-      report.map_changed = true;
-      if (!adopt_map(outcome.effects.touched, diagnostics)) return false;
-    }
+    problem = changes_->tear(now_.motion, now_.time, report.dt, [this] { sync(); }, pass, outcome);
+    report.events.insert(report.events.end(), outcome.events.begin(), outcome.events.end());
+    report.dropped += outcome.dropped;
+    again = !outcome.effects.touched.empty();
+    if (!again) break;
+    report.map_changed = true;
+    if (!adopt_map(outcome.effects.touched, diagnostics)) return false;
+    again = changes_->judges_again();
   }
   if (!problem) return true;
   diagnostics.report(std::move(*problem));
