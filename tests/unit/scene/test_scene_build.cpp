@@ -79,10 +79,11 @@ TEST_CASE("every scene of the project loads, and so does its resolved text, whic
     CHECK(loaded.rendered() == "");
     REQUIRE(loaded.scene != nullptr);
     CHECK(gmap::validate(loaded.state().map, loaded.state().store).empty());
-    const auto copy = path.parent_path() / (".resolved_" + std::to_string(::getpid()) + ".yaml");
-    std::ofstream(copy) << loaded.scene->resolved;
-    const LoadedScene again(copy);
-    std::filesystem::remove(copy);
+    const SceneFolder folder;  // with the rules and meshes that lie beside the scene
+    for (const auto& entry : std::filesystem::directory_iterator(path.parent_path()))
+      if (entry.is_regular_file() && entry.path().extension() != ".yaml")
+        std::filesystem::copy(entry.path(), folder.path() / entry.path().filename());
+    const LoadedScene again(folder.write("resolved.yaml", loaded.scene->resolved));
     CHECK(again.rendered() == "");
     REQUIRE(again.scene != nullptr);
     check_equal(loaded, again);
