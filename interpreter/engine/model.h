@@ -69,8 +69,8 @@ struct IntegratorSettings {
   double dt = 0;                ///< s; 0: automatic, from the stability bound
   OnUnstable on_unstable = OnUnstable::Error;
   double rtol = 1e-6;           ///< adaptive methods
-  double atol_position = 0;     ///< m; 0: 1e-6 of the shortest edge
-  double atol_velocity = 0;     ///< m/s; 0: from atol_position and the first step
+  double atol_position = 0;     ///< m; 0: the shortest edge times rtol
+  double atol_velocity = 0;     ///< m/s; 0: atol_position times the highest frequency
   double dt_min = 0;            ///< s
   double dt_max = 0;            ///< s; 0: no limit
   std::optional<support::Span> span = std::nullopt;  ///< where the scene asks for it

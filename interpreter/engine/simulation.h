@@ -73,8 +73,8 @@ class Simulation {
   [[nodiscard]] double time() const;
   [[nodiscard]] std::uint64_t steps() const;
   [[nodiscard]] std::uint64_t evaluations() const;
-  /// s: the fixed step (chosen from the limit when the settings leave it open), or the step that an
-  /// adaptive method will try next.
+  /// s: the fixed step (chosen from the limit when the settings leave it open), or the longest step
+  /// that an adaptive method will try next.
   [[nodiscard]] double dt() const;
   /// Positions of all vertices at `time` within the last step (vertex rows, 3 numbers each), by
   /// quintic Hermite interpolation of positions, velocities and accelerations; adaptive methods

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -45,7 +46,9 @@ class Simulation::Implementation {
   [[nodiscard]] double time() const { return now_.time; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   [[nodiscard]] std::uint64_t evaluations() const { return equations_.evaluations(); }
-  [[nodiscard]] double dt() const { return info_->adaptive ? control_.next() : dt_; }
+  [[nodiscard]] double dt() const {
+    return info_->adaptive ? std::min(control_.next(), adaptive_cap()) : dt_;
+  }
   [[nodiscard]] const StabilityLimit& limit() const { return limit_; }
 
  private:
@@ -65,7 +68,7 @@ class Simulation::Implementation {
   bool choose_first_step(support::Diagnostics& diagnostics);
 
   // simulation_step.cpp
-  bool advance_fixed(double until, StepReport& report, support::Diagnostics& diagnostics);
+  bool advance_fixed(double until, support::Diagnostics& diagnostics);
   bool advance_adaptive(double until, StepReport& report, support::Diagnostics& diagnostics);
   bool try_step(double dt);
   bool review(double dt, support::Diagnostics& diagnostics);
@@ -115,6 +118,7 @@ class Simulation::Implementation {
   std::unique_ptr<MapChanges> changes_;  // null when nothing changes the map
 
   PhasePoint now_, next_;        // next_ is the point before now_ between steps
+  PhasePoint before_;            // where a step of several substeps began
   Tolerance tolerance_;          // of methods that choose their step
   double dt_ = 0;                // s, of methods with a fixed step
   std::uint32_t substeps_ = 1;

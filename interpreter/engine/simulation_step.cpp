@@ -24,7 +24,7 @@ std::optional<StepReport> Simulation::Implementation::step(double until,
   const std::uint64_t before = equations_.evaluations();
   StepReport report;
   const bool done = info_->adaptive ? advance_adaptive(until, report, diagnostics)
-                                    : advance_fixed(until, report, diagnostics);
+                                    : advance_fixed(until, diagnostics);
   if (!done) return std::nullopt;
   ++steps_;
   report.time = now_.time;
@@ -38,8 +38,7 @@ std::optional<StepReport> Simulation::Implementation::step(double until,
   return report;
 }
 
-bool Simulation::Implementation::advance_fixed(double until, StepReport& report,
-                                               support::Diagnostics& diagnostics) {
+bool Simulation::Implementation::advance_fixed(double until, support::Diagnostics& diagnostics) {
   // Times are multiples of the step as long as none was shortened, so that they do not drift.
   const double count = static_cast<double>(steps_);
   const bool on_grid = std::abs(now_.time - count * dt_) <= 1e-6 * dt_;
@@ -49,10 +48,8 @@ bool Simulation::Implementation::advance_fixed(double until, StepReport& report,
   if (end > until + slack) length = until - now_.time;
   if (end > until - slack) end = until;
 
-  const PhasePoint* const start = &now_;
   const double part = length / substeps_;
-  PhasePoint first;
-  if (substeps_ > 1) first = *start;
+  if (substeps_ > 1) before_ = now_;  // what a failure within the step goes back to
   for (std::uint32_t i = 0; i < substeps_; ++i) {
     if (!try_step(part)) {
       diagnostics.report(failed_forces(part));
@@ -62,11 +59,10 @@ bool Simulation::Implementation::advance_fixed(double until, StepReport& report,
       std::swap(now_, next_);
       continue;
     }
-    if (i > 0) now_ = std::move(first);
+    if (i > 0) now_ = before_;
     return false;
   }
   now_.time = end;
-  report.rejected = 0;
   return true;
 }
 

@@ -17,7 +17,6 @@ constexpr double kAutomaticShare = 0.9;
 constexpr double kAdaptiveShare = 0.9;
 /// Substeps are at most this part of the limit, which may fall a little while the model moves.
 constexpr double kSubstepShare = 0.95;
-constexpr double kEdgeShare = 1e-6;  // of the shortest edge: what positions may be wrong by
 
 /// The norm in which adaptive methods measure errors, of a pair of rates at a state.
 double scaled_norm(const std::vector<VertexRecord>& x, const std::vector<VertexRecord>& v,
@@ -100,14 +99,14 @@ void Simulation::Implementation::choose_tolerance() {
   tolerance_.relative = settings_.rtol;
   tolerance_.position = settings_.atol_position > 0
                             ? settings_.atol_position
-                            : std::min(kEdgeShare, settings_.rtol) * length;
+                            : settings_.rtol * length;
   tolerance_.velocity =
       settings_.atol_velocity > 0 ? settings_.atol_velocity : rate * tolerance_.position;
 }
 
 bool Simulation::Implementation::choose_first_step(support::Diagnostics& diagnostics) {
   choose_tolerance();
-  control_.set_next(settings_.dt);
+  control_.set_next(std::min(settings_.dt, adaptive_cap()));
   if (settings_.dt > 0) return true;
   const std::span<const double> inverse_mass = equations_.inverse_mass();
   const auto norm = [&](const auto& x, const auto& v) {
@@ -132,7 +131,8 @@ bool Simulation::Implementation::choose_first_step(support::Diagnostics& diagnos
     acceleration[r] = inverse_mass[r] * (next_.force[r] - now_.force[r]);
   }
   const double d2 = norm(next_.motion.velocity, acceleration) / trial;
-  control_.set_next(first_step(trial, d1, d2, method_->embedded_order() + 1));
+  const double wish = first_step(trial, d1, d2, method_->embedded_order() + 1);
+  control_.set_next(std::min(wish, adaptive_cap()));
   next_ = now_;
   return true;
 }

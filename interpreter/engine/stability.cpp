@@ -64,6 +64,7 @@ double step_limit(const Integrator& method, double omega, double damping) {
   // A mode without stiffness is one that is very soft beside its damping.
   omega = std::max(omega, 1e-6 * damping);
   if (!(omega > 0)) return kInfinity;
+  if (std::isinf(omega)) return 0;
   // In units of the mode's own rates, all methods here have their limit below 16.
   const double unit = 1 / (omega + damping);
   constexpr double kScan = 0.02, kEnd = 16;
@@ -102,7 +103,9 @@ bool StabilityEstimator::estimate(const PhasePoint& point, std::span<const doubl
   limit.where = bound.where;
   limit.interaction = bound.interaction;
   global_limit(point, inverse_mass, limit);
-  limit.dt = std::min(limit.dt, limit.dt_global);
+  // Stiff elements on corners without mass (of held vertices) bound nothing.
+  const bool bounded = std::isfinite(bound.stiffness) && std::isfinite(bound.damping);
+  limit.dt = bounded ? std::min(limit.dt, limit.dt_global) : limit.dt_global;
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "engine/integrators/integrator.h"
@@ -205,6 +206,16 @@ TEST_CASE("between the bound and the global limit there is a warning") {
   CHECK(warning.message.find("element-wise") != std::string::npos);
   REQUIRE(warning.notes.size() == 2);
   CHECK(warning.notes[1].find("vertex (1, 0, 0)") != std::string::npos);
+}
+
+TEST_CASE("an element bound that is infinite leaves the global limit") {
+  ParticleWorld world(2);
+  auto forces = std::make_unique<Oscillators>(1, 0);
+  forces->bound.stiffness = std::numeric_limits<double>::infinity();
+  const auto simulation = world.simulate(std::move(forces), rk4(2, OnUnstable::Error));
+  REQUIRE(simulation);
+  CHECK(world.diagnostics.all().empty());
+  CHECK(simulation->limit().dt == simulation->limit().dt_global);
 }
 
 TEST_CASE("dt: auto is a fixed part of the element-wise limit") {
