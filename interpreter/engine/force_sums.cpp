@@ -91,16 +91,8 @@ void ForceSums::rename(Row vertex, std::uint32_t from, std::uint32_t to) {
 }
 
 void ForceSums::sum(const VertexRecord* forces, Row begin, Row end, VertexRecord* out) const {
-  using Four = double __attribute__((vector_size(32)));
-  const auto* values = reinterpret_cast<const Four*>(forces);
-  auto* sums = reinterpret_cast<Four*>(out);
-  for (Row vertex = begin; vertex < end; ++vertex) {
-    const List& list = lists_[vertex];
-    const std::uint32_t* slot = slots_.data() + list.begin;
-    Four sum = {};
-    for (std::uint32_t k = 0; k < list.count; ++k) sum += values[slot[k]];
-    sums[vertex] = sum;
-  }
+  if (begin == end) return;
+  sum_records(&forces->x, lists_.data() + begin, slots_.data(), end - begin, &out[begin].x);
 }
 
 }  // namespace gmsim::engine

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/force_field.h"
+#include "engine/kernel/record_sums.h"
 #include "engine/match_table.h"
 
 namespace gmsim::engine {
@@ -56,11 +57,7 @@ class ForceSums {
   [[nodiscard]] Row vertices() const { return static_cast<Row>(lists_.size()); }
 
  private:
-  struct List {
-    std::uint32_t begin = 0;
-    std::uint32_t count = 0;
-    std::uint32_t capacity = 0;
-  };
+  using List = SlotList;
   void append(std::span<const ForceBlock> of_one_interaction);
   /// The list of a vertex with one entry more, which is the last.
   std::span<std::uint32_t> with_room(Row vertex);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "compile/kernel.h"
+#include "engine/kernel/record_sums.h"
 #include "engine/kernel/run_kernel.h"
 
 /// What the operations of all instruction sets share: plain structures and tables of pointers. No
@@ -34,6 +35,8 @@ inline constexpr std::size_t kKernelOps = 0
 /// The code of each operation for numbers and masks, vec3, sym3, mat3; null where it has none.
 struct OpTable {
   OpKernel code[kKernelOps][4] = {};
+  void (*sum_slots)(const double* records, const SlotList* lists, const std::uint32_t* slots,
+                    std::uint32_t rows, double* out) = nullptr;
 };
 
 namespace baseline {

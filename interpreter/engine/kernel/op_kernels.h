@@ -21,6 +21,7 @@ using Instruction = compile::KernelInstruction;
 #include "engine/kernel/vector_math.h"
 #include "engine/kernel/vector_polar.h"
 #include "engine/kernel/ops_move.h"
+#include "engine/kernel/ops_sum.h"
 #include "engine/kernel/ops_real.h"
 #include "engine/kernel/ops_tensor.h"
 #include "engine/kernel/ops_coarse.h"
@@ -110,6 +111,7 @@ OpTable make_table() {
   GMSIM_ALL_TYPES(Select, choose)
 #undef GMSIM_ALL_TYPES
 #undef GMSIM_MATRICES
+  table.sum_slots = sum_slots;
   return table;
 }
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Sums of records by lists of slots. Included inside the namespace of one instruction set, after
+// ops_move.h.
+
+#if GMSIM_VECTOR_BYTES >= 32
+GMSIM_INLINE void add_to(Record& sum, const double* x) {
+  sum += load_record(x);
+}
+GMSIM_INLINE void store_record(double* to, const Record& x) {
+  *reinterpret_cast<StoredRecord*>(to) = x;
+}
+#else
+GMSIM_INLINE void add_to(Record& sum, const double* x) {
+  sum.xy += load(x);
+  sum.zw += load(x + 2);
+}
+GMSIM_INLINE void store_record(double* to, const Record& x) {
+  store(to, x.xy);
+  store(to + 2, x.zw);
+}
+#endif
+
+static void sum_list(const double* records, const SlotList& list, const std::uint32_t* slots,
+                     std::uint32_t first, Record sum, double* out) {
+  for (std::uint32_t k = first; k < list.count; ++k)
+    add_to(sum, records + 4 * std::size_t(slots[list.begin + k]));
+  store_record(out, sum);
+}
+
+/// Four rows abreast: the additions of one wait for each other, those of four do not.
+static void sum_slots(const double* records, const SlotList* lists, const std::uint32_t* slots,
+                      std::uint32_t rows, double* out) {
+  std::uint32_t row = 0;
+  for (; row + 4 <= rows; row += 4) {
+    const SlotList* list = lists + row;
+    const std::uint32_t *s0 = slots + list[0].begin, *s1 = slots + list[1].begin,
+                        *s2 = slots + list[2].begin, *s3 = slots + list[3].begin;
+    std::uint32_t common = list[0].count;
+    for (int i = 1; i < 4; ++i) common = list[i].count < common ? list[i].count : common;
+    Record sum0 = {}, sum1 = {}, sum2 = {}, sum3 = {};
+    for (std::uint32_t k = 0; k < common; ++k) {
+      add_to(sum0, records + 4 * std::size_t(s0[k]));
+      add_to(sum1, records + 4 * std::size_t(s1[k]));
+      add_to(sum2, records + 4 * std::size_t(s2[k]));
+      add_to(sum3, records + 4 * std::size_t(s3[k]));
+    }
+    double* to = out + 4 * std::size_t(row);
+    sum_list(records, list[0], slots, common, sum0, to);
+    sum_list(records, list[1], slots, common, sum1, to + 4);
+    sum_list(records, list[2], slots, common, sum2, to + 8);
+    sum_list(records, list[3], slots, common, sum3, to + 12);
+  }
+  for (; row < rows; ++row)
+    sum_list(records, lists[row], slots, 0, Record{}, out + 4 * std::size_t(row));
+}
