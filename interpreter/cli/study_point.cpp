@@ -28,6 +28,20 @@ std::string first_error(const support::Diagnostics& diagnostics) {
   return "it stopped";
 }
 
+/// Runs that change the mesh cannot be compared vertex by vertex, nor be run twice from one state.
+bool keeps_its_mesh(Session& session, const scene::Scene& scene) {
+  const auto refuse = [&](const support::Span& place, const char* key) {
+    session.diagnostics.report(
+        {.kind = support::DiagnosticKind::Usage,
+         .message = fmt::format("a study compares runs that keep their mesh, and `{}` changes it", key),
+         .place = place,
+         .help = "leave it out, or compare runs by what they expect: `gmsim verify`"});
+  };
+  for (const engine::TearPairing& tear : scene.tears) refuse(tear.span, "tear");
+  for (const engine::StandingRewrite& rewrite : scene.rewrites) refuse(rewrite.span, "rewrite");
+  return scene.tears.empty() && scene.rewrites.empty();
+}
+
 /// The point as overrides of the scene.
 std::vector<std::string> overrides(const StudyPoint& point) {
   std::vector<std::string> texts = {"integrator.method=" + point.method};
@@ -62,15 +76,7 @@ StudyScene::StudyScene(Session& session, std::unique_ptr<scene::Scene> scene)
 
 std::unique_ptr<StudyScene> StudyScene::load(Session& session, StudyPoint& point) {
   auto scene = load_scene(session, overrides(point));
-  if (!scene) return nullptr;
-  if (!scene->tears.empty() || !scene->rewrites.empty()) {
-    session.diagnostics.report(
-        {.kind = support::DiagnosticKind::Usage,
-         .message = "a scene that changes its mesh cannot be studied: points of two runs would not "
-                    "be the same",
-         .help = "leave `tear` and `rewrite` out, or compare runs by what they expect: `gmsim verify`"});
-    return nullptr;
-  }
+  if (!scene || !keeps_its_mesh(session, *scene)) return nullptr;
   return std::unique_ptr<StudyScene>(new StudyScene(session, std::move(scene)));
 }
 
