@@ -12,6 +12,7 @@ namespace gmsim::engine {
 
 namespace {
 
+constexpr std::uint32_t kNoPiece = 0xffffffffu;
 constexpr double kSame = 1e-9;  // eigenvalues that differ by less, relatively, are one
 
 /// Are all eigenvalues of a symmetric matrix below `bound`? By a Cholesky factorisation of
@@ -36,7 +37,8 @@ ElementBounds::ElementBounds(const ForceContext& context)
       corner_mass_(context.state.program.schema.find("corner_mass")),
       fixed_(context.state.program.schema.find("fixed")),
       corner_(OrbitType::range(1, context.state.map.dimension() - 1)),
-      element_(OrbitType::range(0, context.state.map.dimension() - 1)) {}
+      element_(OrbitType::range(0, context.state.map.dimension() - 1)),
+      of_element_(context.state.map.dart_end(), kNoPiece) {}
 
 double ElementBounds::mass(DartId corner) const {
   const gmap::EmbeddingStore& store = context_.state.store;
@@ -46,14 +48,14 @@ double ElementBounds::mass(DartId corner) const {
 }
 
 ElementBounds::Stand ElementBounds::stand(const compile::Shape& shape,
-                                          const ForceMatch& match) const {
+                                          std::span<const DartId> targets) const {
   const gmap::GMap& map = context_.state.map;
   const gmap::EmbeddingStore& store = context_.state.store;
   Stand result;
   result.corners.resize(shape.forces.size());
   for (std::size_t k = 0; k < shape.targets.size(); ++k) {
     const compile::ForceTarget& target = shape.targets[k];
-    const DartId dart = match.roles.targets[k];
+    const DartId dart = targets[k];
     if (fixed_ && store.in_use(*fixed_) && store.get(*fixed_, dart)[0] != 0) continue;
     auto& corners = result.corners[target.root];
     if (corner_.contains(target.orbit)) {
@@ -96,8 +98,11 @@ void ElementBounds::add(std::uint32_t interaction, DartId where, const Stand& st
   const double size = std::sqrt(std::inner_product(matrix.begin(), matrix.end(), matrix.begin(), 0.0));
   if (size == 0) return;
   std::size_t number = pieces_.size();
-  if (stand.element != gmap::kNoDart)
-    number = of_element_.try_emplace(types::index(stand.element), number).first->second;
+  if (stand.element != gmap::kNoDart) {
+    std::uint32_t& piece = of_element_[types::index(stand.element)];
+    if (piece == kNoPiece) piece = static_cast<std::uint32_t>(number);
+    number = piece;
+  }
   if (number == pieces_.size()) pieces_.emplace_back();
   Piece& piece = pieces_[number];
   if (size > piece.stiffest) {
@@ -124,8 +129,8 @@ double ElementBounds::weight(const Piece& piece, std::size_t place) {
   return std::sqrt(std::inner_product(begin, begin + static_cast<std::ptrdiff_t>(3 * n), begin, 0.0));
 }
 
-std::unordered_map<std::uint32_t, double> ElementBounds::total_weights() const {
-  std::unordered_map<std::uint32_t, double> totals;
+std::vector<double> ElementBounds::total_weights() const {
+  std::vector<double> totals(context_.state.map.dart_end(), 0.0);
   for (const Piece& piece : pieces_)
     for (std::size_t p = 0; p < piece.places.size(); ++p)
       for (const DartId corner : piece.places[p]) totals[types::index(corner)] += weight(piece, p);
@@ -133,8 +138,7 @@ std::unordered_map<std::uint32_t, double> ElementBounds::total_weights() const {
 }
 
 double ElementBounds::eigenvalue(const Piece& piece,
-                                 const std::unordered_map<std::uint32_t, double>& totals,
-                                 double known) const {
+                                 const std::vector<double>& totals, double known) const {
   const std::size_t places = piece.places.size();
   std::vector<double> scale(places, 0.0);  // 1 / sqrt(mass)
   for (std::size_t p = 0; p < places; ++p) {
@@ -142,7 +146,7 @@ double ElementBounds::eigenvalue(const Piece& piece,
     if (own == 0) continue;
     double share = 0;
     for (const DartId corner : piece.places[p])
-      share += mass(corner) * own / totals.at(types::index(corner));
+      share += mass(corner) * own / totals[types::index(corner)];
     if (share <= 0) return std::numeric_limits<double>::infinity();
     scale[p] = 1 / std::sqrt(share);
   }
@@ -157,7 +161,7 @@ double ElementBounds::eigenvalue(const Piece& piece,
 }
 
 ElementBounds::Largest ElementBounds::largest() const {
-  const std::unordered_map<std::uint32_t, double> totals = total_weights();
+  const std::vector<double> totals = total_weights();
   Largest result;
   for (const Piece& piece : pieces_) {
     const double value = eigenvalue(piece, totals, result.value);

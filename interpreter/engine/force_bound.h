@@ -2,13 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/force_context.h"
 #include "engine/force_field.h"
-#include "engine/force_matches.h"
 
 namespace gmsim::engine {
 
@@ -30,7 +29,8 @@ class ElementBounds {
     std::vector<std::vector<DartId>> corners;  ///< by force root
     DartId element = gmap::kNoDart;            ///< kNoDart: not within one element
   };
-  [[nodiscard]] Stand stand(const compile::Shape& shape, const ForceMatch& match) const;
+  /// `targets`: the dart of each of Shape::targets.
+  [[nodiscard]] Stand stand(const compile::Shape& shape, std::span<const DartId> targets) const;
   /// `matrix`: 3 n by 3 n by rows, n = force roots of the match; its symmetric part counts.
   void add(std::uint32_t interaction, DartId where, const Stand& stand,
            std::span<const double> matrix);
@@ -55,18 +55,18 @@ class ElementBounds {
   static std::size_t place(Piece& piece, const std::vector<DartId>& corners);
   /// How stiff a piece is at a place: the norm of its three rows.
   static double weight(const Piece& piece, std::size_t place);
-  [[nodiscard]] std::unordered_map<std::uint32_t, double> total_weights() const;
+  /// By smallest dart of the corner: the sum over all pieces.
+  [[nodiscard]] std::vector<double> total_weights() const;
   /// The largest eigenvalue of a piece, or `known` when that is not smaller.
   [[nodiscard]] double eigenvalue(const Piece& piece,
-                                  const std::unordered_map<std::uint32_t, double>& totals,
-                                  double known) const;
+                                  const std::vector<double>& totals, double known) const;
 
   const ForceContext& context_;
   std::optional<EmbeddingId> corner_mass_;
   std::optional<EmbeddingId> fixed_;
   OrbitType corner_, element_;
   std::vector<Piece> pieces_;
-  std::unordered_map<std::uint32_t, std::size_t> of_element_;  // smallest dart: piece
+  std::vector<std::uint32_t> of_element_;  // piece by smallest dart
 };
 
 /// Largest eigenvalue of a symmetric matrix (n by n, by rows), by Jacobi rotations.

@@ -59,8 +59,8 @@ bool KernelForces::add_bounds(InteractionTables& of, std::size_t shape, const Fo
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
           matrix[i * n + j] = -columns[((j * roots.size() + i / 3) * kMatches + row - begin) * 3 + i % 3];
-      const ForceMatch match = table.match(row, static_cast<std::uint32_t>(shape));
-      bounds.add(of.number(), match.key, bounds.stand(of.shape(shape), match), matrix);
+      bounds.add(of.number(), table.key(row), bounds.stand(of.shape(shape), table.targets(row)),
+                 matrix);
     }
   }
   return true;

@@ -194,7 +194,7 @@ bool TreeForces::element_bound(const Motion& motion, double time, ElementBound& 
   std::vector<double> matrix;
   for (const auto& of : interactions_) {
     for (const ForceMatch& match : of->matches()) {
-      const ElementBounds::Stand stand = stiffness.stand(of->shape(match), match);
+      const ElementBounds::Stand stand = stiffness.stand(of->shape(match), match.roles.targets);
       if (!jacobian(*of, match, motion, time, false, matrix)) return false;
       stiffness.add(of->number(), match.key, stand, matrix);
       if (!jacobian(*of, match, motion, time, true, matrix)) return false;
