@@ -145,6 +145,8 @@ def check_pictures(checks):
             checks.expect(drawn(pixels) > least, f"{page}, frame {k}: {drawn(pixels):.2%} is drawn")
             checks.expect(bluish(pixels) > 0.7 * least, f"{page}, frame {k}: {bluish(pixels):.2%} is surface or line")
         checks.expect(differing(frames[0], frames[60]) > least / 4, f"{page}: frames 0 and 60 look alike")
+    near = drawn(checks.picture("block", "frame=0&fit=frame"))
+    checks.expect(near > 1.1 * drawn(checks.picture("block", "frame=0")), f"fitted to frame 0, {near:.2%} is drawn")
     sides = checks.picture("sheet", "frame=60&field=side&edges=off")
     yellow = sum(r > 150 and g > 130 and b < 100 for r, g, b in sides) / len(sides)
     purple = sum(r < 90 and g < 30 and 40 < b < 110 for r, g, b in sides) / len(sides)

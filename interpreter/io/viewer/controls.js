@@ -29,7 +29,11 @@ export class Controls {
 
   listFields() {
     element('field').append(new Option('nothing', -1));
-    this.run.head.fields.forEach((field, i) => element('field').append(new Option(field.name, i)));
+    const { fields } = this.run.head;
+    fields.forEach((field, i) => { // a name may stand for a field on points and one on cells
+      const alone = fields.filter((other) => other.name === field.name).length === 1;
+      element('field').append(new Option(alone ? field.name : `${field.name} (${field.on})`, i));
+    });
   }
 
   listen() {
@@ -62,6 +66,7 @@ export class Controls {
     if (event.key === ' ') this.playing ? this.pause() : this.play();
     else if (event.key === 'e') element('edges').click();
     else if (event.key === 'h') this.drawing.lookHome();
+    else if (event.key === 'f') this.drawing.lookAtFrame();
     else if (jump) {
       this.pause();
       this.show(Math.min(Math.max(this.frame + jump, 0), this.last));
@@ -69,7 +74,7 @@ export class Controls {
     event.preventDefault();
   }
 
-  /** #frame=60&field=velocity&edges=off&range=frame; the frame by its number in the file. */
+  /** #frame=60&field=velocity&edges=off&range=frame&fit=frame; the frame by its number in the file. */
   readHash(firstField) {
     const hash = new URLSearchParams(location.hash.slice(1));
     element('notice').textContent = '';
@@ -83,6 +88,7 @@ export class Controls {
       element('edges').checked = hash.get('edges') !== 'off';
       this.drawing.setEdges(element('edges').checked);
     }
+    if (hash.get('fit') === 'frame') this.drawing.lookAtFrame();
     if (hash.has('range')) {
       element('of_frame').checked = hash.get('range') === 'frame';
       this.drawing.setOfFrame(element('of_frame').checked);

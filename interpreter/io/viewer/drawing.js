@@ -60,11 +60,10 @@ export class Drawing {
   placeCamera() {
     const { low, high } = this.run.head;
     this.box = new Box3(new Vector3(...low), new Vector3(...high));
-    this.center = this.box.getCenter(new Vector3());
     this.radius = this.box.getSize(new Vector3()).length() / 2 || 1;
     const flat = high[2] - low[2] < 1e-6 * this.radius;
     this.direction = flat ? new Vector3(0, 0, 1) : new Vector3(0.5, -1, 0.45).normalize();
-    this.camera = new PerspectiveCamera(30, 1, this.radius / 100, this.radius * 100);
+    this.camera = new PerspectiveCamera(30, 1, this.radius / 1000, this.radius * 100);
     this.camera.up.set(0, flat ? 1 : 0, flat ? 0 : 1);
     this.scene.add(this.camera, new AmbientLight('#ffffff', 1.7));
     const light = new DirectionalLight('#ffffff', 1.9);
@@ -77,7 +76,23 @@ export class Drawing {
 
   /** Back to where the page began. */
   lookHome() {
-    const { camera, box, center } = this;
+    this.lookAt(this.box);
+  }
+
+  /** At where the body is now: a piece that fell far makes the box of the run large. */
+  lookAtFrame() {
+    const box = new Box3();
+    const positions = this.run.positions(this.frame);
+    for (let i = 0; i < positions.length; i += 3) {
+      const point = new Vector3().fromArray(positions, i);
+      if (Number.isFinite(point.x + point.y + point.z)) box.expandByPoint(point);
+    }
+    if (!box.isEmpty()) this.lookAt(box);
+  }
+
+  lookAt(box) {
+    const { camera } = this;
+    const center = box.getCenter(new Vector3());
     camera.position.copy(center).add(this.direction);
     camera.lookAt(center);
     camera.updateMatrixWorld();
@@ -92,7 +107,7 @@ export class Drawing {
         Math.max(Math.abs(seen.x) / (rise * camera.aspect), Math.abs(seen.y) / rise));
     }
     camera.position.copy(center).addScaledVector(this.direction, distance);
-    this.controls.target.copy(this.center);
+    this.controls.target.copy(center);
     this.controls.update();
   }
 
