@@ -12,10 +12,10 @@ bool Simulation::Implementation::change_map(StepReport& report,
     sync();
     Effects effects;
     problem = changes_->rewrite(effects);
-    // A rule that changes values only may have changed parameters or velocities.
+    // What rules wrote (parameters, masses) is not among the touched darts: everything is looked at.
     if (effects.applications > 0) {
       report.map_changed = !effects.touched.empty();
-      if (!adopt_map(effects.touched, diagnostics)) return false;
+      if (!adopt_map({}, diagnostics)) return false;
     }
   }
   bool again = changes_->has_criteria();
