@@ -8,7 +8,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 # What the build needs, nothing taken for granted (docs/dependencies.md says what each is for).
 build_packages=(
   cmake ninja-build g++ flex bison
-  libfmt-dev libcli11-dev libyaml-cpp-dev libtinyobjloader-dev libhdf5-dev libeigen3-dev zlib1g-dev
+  libfmt-dev libcli11-dev libyaml-cpp-dev libtinyobjloader-dev libhdf5-dev zlib1g-dev
 )
 # What the tests need on top.
 test_packages=(doctest-dev python3 python3-venv)
