@@ -46,16 +46,22 @@ void Criteria::read_forces_now() {
 }
 
 Criteria::Diagnostic Criteria::judge(const Motion& motion, double time, double dt,
+                                     const std::function<void()>& sync,
                                      std::vector<TearRequest>& requests) {
+  const auto due = [&](const auto& field) { return time >= field->pairing().after; };
+  if (std::none_of(fields_.begin(), fields_.end(), due)) return std::nullopt;
   read_forces_now();
   const ForceMoment moment{.position = motion.position, .velocity = motion.velocity, .time = time,
-                           .dt = dt, .step = static_cast<double>(state_.step),
+                           .dt = dt, .step = forces_.step(),
                            .forces = &readings_};
+  bool synced = false;
   std::vector<TearRequest> of_field;
   for (const auto& field : fields_) {
-    if (time < field->pairing().after) continue;
+    if (!due(field)) continue;
     of_field.clear();
     if (Diagnostic error = field->judge(moment, of_field)) return error;
+    if (of_field.empty()) continue;
+    if (!std::exchange(synced, true)) sync();
     if (Diagnostic error = select(*field, of_field)) return error;
     std::move(of_field.begin(), of_field.end(), std::back_inserter(requests));
   }

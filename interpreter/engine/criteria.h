@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,12 +24,11 @@ class Criteria {
   Diagnostic rebuild();
   /// The requests of all pairings that are due at `time`, those of each pairing reduced to its
   /// strongest, in the order of their application. The last evaluation of the force field must have
-  /// been of this motion; the store must hold its positions if `where` of a pairing reads them.
-  Diagnostic judge(const Motion& motion, double time, double dt,
+  /// been of this motion. `sync` puts it into the store; it is called, once, before `where` is looked
+  /// at and whenever there are requests.
+  Diagnostic judge(const Motion& motion, double time, double dt, const std::function<void()>& sync,
                    std::vector<TearRequest>& requests);
 
-  /// Does any criterion read forces?
-  [[nodiscard]] bool read_forces() const { return !readings_.sums.empty() || one_by_one_; }
   [[nodiscard]] const std::vector<std::unique_ptr<CriterionField>>& fields() const {
     return fields_;
   }

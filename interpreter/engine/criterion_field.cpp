@@ -147,24 +147,11 @@ bool CriterionField::reads_forces_one_by_one() const {
   });
 }
 
-std::size_t CriterionField::match_count() const {
-  std::size_t count = 0;
-  for (const auto& part : parts_) count += part->table.size();
-  return count;
-}
-
 CriterionField::Diagnostic CriterionField::judge(const ForceMoment& moment,
                                                  std::vector<TearRequest>& requests) {
-  survey_ = {};
-  survey_.matches = static_cast<std::uint32_t>(match_count());
+  ratios_.clear();
   for (std::uint32_t shape = 0; shape < parts_.size(); ++shape)
     if (Diagnostic error = judge_part(*parts_[shape], shape, moment, requests)) return error;
-  if (survey_.where == gmap::kNoDart) return std::nullopt;
-  const bool nearer = nearest_.where == gmap::kNoDart ||
-                      survey_.value / survey_.threshold > nearest_.value / nearest_.threshold;
-  if (!nearer) return std::nullopt;
-  const VertexRecord& at = moment.position[context_.vertices().row(survey_.where)];
-  nearest_ = {survey_.value, survey_.threshold, moment.time, survey_.where, {at.x, at.y, at.z}};
   return std::nullopt;
 }
 
@@ -185,22 +172,24 @@ CriterionField::Diagnostic CriterionField::judge_part(Part& part, std::uint32_t 
   }
   for (std::uint32_t row = 0; row < count; ++row) {
     const double value = part.values[row], threshold = part.thresholds[row];
-    if (keep_ratios_) survey_.ratios.push_back(value / threshold);
-    if (survey_.where == gmap::kNoDart ||
-        value / threshold > survey_.value / survey_.threshold) {
-      survey_.value = value;
-      survey_.threshold = threshold;
-      survey_.where = part.table.nodes(row)[body_.hook];
-    }
+    if (keep_ratios_) ratios_.push_back(value / threshold);
+    if (nearest_.where == gmap::kNoDart ||
+        value / threshold > nearest_.value / nearest_.threshold)
+      note_nearest(part.table.nodes(row)[body_.hook], value, threshold, moment);
     if (value > threshold) fire(part, shape, row, moment, value, threshold, requests);
   }
   return std::nullopt;
 }
 
+void CriterionField::note_nearest(DartId hook, double value, double threshold,
+                                  const ForceMoment& moment) {
+  const VertexRecord& at = moment.position[context_.vertices().row(hook)];
+  nearest_ = {value, threshold, moment.time, hook, {at.x, at.y, at.z}};
+}
+
 void CriterionField::fire(Part& part, std::uint32_t shape, std::uint32_t row,
                           const ForceMoment& moment, double value, double threshold,
                           std::vector<TearRequest>& requests) {
-  ++survey_.fired;
   TearRequest request{.pairing = number_, .hook = part.table.nodes(row)[body_.hook],
                       .node = body_.hook, .value = value, .threshold = threshold,
                       .results = {}, .orbit = {}};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -31,29 +30,15 @@ class CriterionField {
   void add_sums(ForceReadings& readings) const;
   [[nodiscard]] bool reads_forces_one_by_one() const;
 
-  /// What the last judgement saw.
-  struct Survey {
-    std::uint32_t matches = 0;
-    std::uint32_t fired = 0;
-    double value = 0, threshold = 0;     ///< of the match with the largest ratio
-    DartId where = gmap::kNoDart;        ///< its hook
-    std::vector<double> ratios;          ///< of all matches when asked for
-  };
   /// Adds a request for each match whose value is above its threshold; `node` is the hook. Where and
   /// how many of them count is the caller's.
   Diagnostic judge(const ForceMoment& moment, std::vector<TearRequest>& requests);
-  [[nodiscard]] const Survey& survey() const { return survey_; }
-  /// The match that was nearest to tearing in all judgements so far, and when (s).
-  struct Nearest {
-    double value = 0, threshold = 0, time = 0;
-    DartId where = gmap::kNoDart;
-    std::array<double, 3> position{};  ///< of that dart's vertex, m
-  };
-  [[nodiscard]] const Nearest& nearest() const { return nearest_; }
+  [[nodiscard]] const NearestMatch& nearest() const { return nearest_; }
+  /// Value over threshold of all matches in the last judgement, if they are kept.
+  [[nodiscard]] const std::vector<double>& ratios() const { return ratios_; }
   void keep_ratios(bool keep) { keep_ratios_ = keep; }
   [[nodiscard]] const TearPairing& pairing() const { return pairing_; }
   [[nodiscard]] const compile::CriterionBody& body() const { return body_; }
-  [[nodiscard]] std::size_t match_count() const;
 
  private:
   /// The table of one shape and its kernels.
@@ -61,6 +46,7 @@ class CriterionField {
   void add(const ForceMatch& match);
   Diagnostic judge_part(Part& part, std::uint32_t shape, const ForceMoment& moment,
                         std::vector<TearRequest>& requests);
+  void note_nearest(DartId hook, double value, double threshold, const ForceMoment& moment);
   void fire(Part& part, std::uint32_t shape, std::uint32_t row, const ForceMoment& moment,
             double value, double threshold, std::vector<TearRequest>& requests);
 
@@ -72,8 +58,8 @@ class CriterionField {
   ForceMatches finder_;
   std::vector<std::unique_ptr<Part>> parts_;  // by shape
   KernelScratch scratch_;
-  Survey survey_;
-  Nearest nearest_;
+  NearestMatch nearest_;
+  std::vector<double> ratios_;
   bool keep_ratios_ = false;
 };
 

@@ -63,6 +63,11 @@ class ForceField {
   /// have changed nothing that a user would see.
   virtual std::vector<support::Diagnostic> notices(const Motion& motion, double time) = 0;
 
+  /// Steps completed, for forces and criteria that read `step`. The state has it only when it is in
+  /// step with the simulation, which depends on the output.
+  void set_step(std::uint64_t step) { step_ = static_cast<double>(step); }
+  [[nodiscard]] double step() const { return step_; }
+
   /// Does any force read velocities, or the clock (time, dt, step)?
   [[nodiscard]] virtual bool reads_velocity() const = 0;
   [[nodiscard]] virtual bool reads_time() const = 0;
@@ -79,6 +84,9 @@ class ForceField {
   [[nodiscard]] virtual const std::optional<support::Diagnostic>& error() const = 0;
   /// The plan as text (`gmsim explain`).
   [[nodiscard]] virtual std::string explain() const = 0;
+
+ private:
+  double step_ = 0;
 };
 
 struct ForceOptions {

@@ -100,7 +100,7 @@ void KernelForces::bind_outputs(Job& job) {
 
 ForceMoment KernelForces::moment(const Motion& motion, double time, double dt) const {
   return {.position = motion.position, .velocity = motion.velocity, .time = time, .dt = dt,
-          .step = static_cast<double>(context_.state.step)};
+          .step = step()};
 }
 
 bool KernelForces::evaluate(const Motion& motion, double time, double dt,

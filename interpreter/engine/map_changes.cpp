@@ -120,31 +120,38 @@ bool MapChanges::judges_again() const {
                      [](const TearPairing& pairing) { return pairing.refresh; });
 }
 
-void MapChanges::choose_for_pass(std::uint32_t pass) {
+void MapChanges::drop_spent(std::uint32_t pass) {
   if (pass == 0) applied_.assign(model_.tears.size(), 0);
-  double strongest = 0;  // of the requests that are judged again after each change
-  for (const TearRequest& request : requests_)
-    if (model_.tears[request.pairing].refresh) strongest = std::max(strongest, request.ratio());
   std::erase_if(requests_, [&](const TearRequest& request) {
     const TearPairing& pairing = model_.tears[request.pairing];
     if (!pairing.refresh) return pass > 0;
-    const bool enough = pairing.at_most && applied_[request.pairing] >= *pairing.at_most;
-    return enough || request.ratio() < strongest * (1 - kTie);
+    return pairing.at_most && applied_[request.pairing] >= *pairing.at_most;
   });
+}
+
+void MapChanges::take_batch() {
+  double strongest = 0;  // of the requests that are judged again after each change
+  for (const TearRequest& request : requests_)
+    if (model_.tears[request.pairing].refresh) strongest = std::max(strongest, request.ratio());
+  const auto rest =
+      std::stable_partition(requests_.begin(), requests_.end(), [&](const TearRequest& request) {
+        return !model_.tears[request.pairing].refresh || request.ratio() >= strongest * (1 - kTie);
+      });
+  batch_.assign(requests_.begin(), rest);
+  requests_.erase(requests_.begin(), rest);
 }
 
 MapChanges::Diagnostic MapChanges::tear(const Motion& motion, double time, double dt,
                                         const std::function<void()>& sync, std::uint32_t pass,
                                         TearOutcome& outcome) {
-  const bool reads_store = std::any_of(model_.tears.begin(), model_.tears.end(),
-                                       [](const TearPairing& p) { return p.where.has_value(); });
-  if (reads_store) sync();
   requests_.clear();
-  if (Diagnostic error = criteria_.judge(motion, time, dt, requests_)) return error;
-  choose_for_pass(pass);
-  if (requests_.empty()) return std::nullopt;
-  if (!reads_store) sync();
-  tearing_.apply(requests_, outcome);
+  if (Diagnostic error = criteria_.judge(motion, time, dt, sync, requests_)) return error;
+  drop_spent(pass);
+  // A batch of which nothing fits any more leaves the map as it was judged: the next one's turn.
+  while (!requests_.empty() && outcome.effects.touched.empty() && !outcome.error) {
+    take_batch();
+    tearing_.apply(batch_, outcome);
+  }
   for (const TearEvent& event : outcome.events) ++applied_[event.pairing];
   release_holds(outcome.effects);
   return std::move(outcome.error);

@@ -24,22 +24,19 @@ class MapChanges {
   /// Finds the matches of all criteria anew: at the start and after every change of the map.
   Diagnostic rebuild() { return criteria_.rebuild(); }
 
-  /// Applies the rewrites of every step; the store must be in step with the motion. Nothing touched
-  /// and nothing written: false in `changed`.
+  /// Applies the rewrites of every step; the store must be in step with the motion.
   Diagnostic rewrite(Effects& effects);
   [[nodiscard]] bool has_rewrites() const { return !model_.rewrites.empty(); }
   [[nodiscard]] bool has_criteria() const { return !model_.tears.empty(); }
-  [[nodiscard]] bool read_forces() const { return criteria_.read_forces(); }
 
   /// Judges all criteria, which the last evaluation of forces must have been for, and applies what
-  /// they ask for. `sync` puts the motion into the store; it is called before anything reads that.
+  /// they ask for. `sync` puts the motion into the store, which happens only if something is asked for.
   /// Of pairings with `refresh` only the strongest request, with its ties, is applied; as long as
   /// that changes something, another pass follows, for them alone, on the forces of the new map.
   Diagnostic tear(const Motion& motion, double time, double dt, const std::function<void()>& sync,
                   std::uint32_t pass, TearOutcome& outcome);
   [[nodiscard]] bool judges_again() const;
 
-  [[nodiscard]] const Criteria& criteria() const { return criteria_; }
   [[nodiscard]] Criteria& criteria() { return criteria_; }
 
  private:
@@ -49,8 +46,10 @@ class MapChanges {
   Diagnostic evaluate_arguments(const StandingRewrite& rewrite, Arguments& arguments);
   /// A new orbit that can carry an interaction gets it, with the scene's parameters.
   Diagnostic carry(Rewriter& rewriter, EmbeddingId presence, DartId smallest);
-  /// Leaves the requests that this pass applies.
-  void choose_for_pass(std::uint32_t pass);
+  /// Drops requests that have no turn in this pass.
+  void drop_spent(std::uint32_t pass);
+  /// Moves what is applied before anything is judged again from requests_ to batch_.
+  void take_batch();
   /// Holds that do not pass to all parts of a split vertex.
   void release_holds(const Effects& effects);
 
@@ -62,7 +61,7 @@ class MapChanges {
   Tearing tearing_;
   TreeEvaluator evaluator_;
   std::vector<std::vector<DartId>> holds_;  // darts of the vertex of each of model_.holds
-  std::vector<TearRequest> requests_;
+  std::vector<TearRequest> requests_, batch_;
   std::vector<std::uint32_t> applied_;  // by pairing, in this step
 };
 

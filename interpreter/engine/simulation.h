@@ -10,12 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/criterion_field.h"
 #include "engine/force_field.h"
 #include "engine/model.h"
 #include "engine/stability_limit.h"
 #include "engine/state.h"
-#include "engine/tearing.h"
+#include "engine/tear_requests.h"
 #include "support/diagnostic.h"
 #include "support/trace.h"
 
@@ -91,7 +90,7 @@ class Simulation {
   bool refresh(std::span<const DartId> touched, support::Diagnostics& diagnostics);
   /// What a line of `tear:` has seen.
   struct CriterionReport {
-    CriterionField::Nearest nearest;   ///< since the start
+    NearestMatch nearest;              ///< since the start
     std::vector<double> ratios;        ///< value over threshold of all matches, now
   };
   /// Judges all criteria on the state as it is, and changes nothing; by line of `tear:`.

@@ -56,6 +56,8 @@ class Simulation::Implementation {
   bool hold_vertices(support::Diagnostics& diagnostics);
   bool weigh_vertices(support::Diagnostics& diagnostics);
   void load_motion();
+  /// Puts prescribed vertices where they are at this time.
+  bool prescribe_now(support::Diagnostics& diagnostics);
   bool first_forces(support::Diagnostics& diagnostics);
 
   // simulation_step_choice.cpp
@@ -79,6 +81,7 @@ class Simulation::Implementation {
   /// The end of a step: what rules do to the map, and what follows for forces and masses.
   bool change_map(StepReport& report, support::Diagnostics& diagnostics);
   bool adopt_map(std::span<const DartId> touched, support::Diagnostics& diagnostics);
+  bool find_criteria(support::Diagnostics& diagnostics);
 
   // simulation_problems.cpp
   [[nodiscard]] support::Diagnostic above_limit(double dt) const;

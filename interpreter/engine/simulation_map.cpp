@@ -38,16 +38,19 @@ bool Simulation::Implementation::change_map(StepReport& report,
 bool Simulation::Implementation::adopt_map(std::span<const DartId> touched,
                                            support::Diagnostics& diagnostics) {
   forces_->refresh(touched);
+  prescribed_.follow(state_);
   if (!hold_vertices(diagnostics) || !weigh_vertices(diagnostics)) return false;
   load_motion();
   edges_.follow(state_);
-  prescribed_.begin_step(now_);
-  if (!first_forces(diagnostics)) return false;
-  if (auto problem = changes_->rebuild()) {
-    diagnostics.report(std::move(*problem));
-    return false;
-  }
-  return true;
+  return prescribe_now(diagnostics) && first_forces(diagnostics) && find_criteria(diagnostics);
+}
+
+bool Simulation::Implementation::find_criteria(support::Diagnostics& diagnostics) {
+  if (!changes_) return true;
+  auto problem = changes_->rebuild();
+  if (!problem) return true;
+  diagnostics.report(std::move(*problem));
+  return false;
 }
 
 std::optional<std::vector<Simulation::CriterionReport>> Simulation::Implementation::survey(
@@ -58,9 +61,9 @@ std::optional<std::vector<Simulation::CriterionReport>> Simulation::Implementati
   if (!first_forces(diagnostics)) return std::nullopt;
   std::vector<TearRequest> requests;
   for (const auto& field : changes_->criteria().fields()) field->keep_ratios(true);
-  auto problem = changes_->criteria().judge(now_.motion, now_.time, dt(), requests);
+  auto problem = changes_->criteria().judge(now_.motion, now_.time, dt(), [] {}, requests);
   for (const auto& field : changes_->criteria().fields()) {
-    reports.push_back({field->nearest(), field->survey().ratios});
+    reports.push_back({field->nearest(), field->ratios()});
     field->keep_ratios(false);
   }
   if (!problem) return reports;

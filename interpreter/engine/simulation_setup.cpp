@@ -37,6 +37,7 @@ Simulation::Implementation::Implementation(State& state, Model model, Integrator
       steps_(state.step) {}
 
 bool Simulation::Implementation::prepare(support::Diagnostics& diagnostics) {
+  forces_->set_step(steps_);
   prescribed_ = PrescribedMotions(state_, model_.motions);
   if (settings_.dt > 0) prescribed_.set_step(settings_.dt);
   if (prescribed_.error()) {
@@ -47,12 +48,8 @@ bool Simulation::Implementation::prepare(support::Diagnostics& diagnostics) {
   load_motion();
   edges_ = EdgeLengths(state_, now_.motion);
   guard_ = Guard(edges_.shortest());
-  prescribed_.begin_step(now_);
-  if (!equations_.prescribe(now_.time, now_.motion)) {
-    diagnostics.report(*equations_.error());
-    return false;
-  }
-  if (!find_limit(diagnostics) || !choose_step(diagnostics) || !first_forces(diagnostics))
+  if (!prescribe_now(diagnostics) || !find_limit(diagnostics) || !choose_step(diagnostics) ||
+      !first_forces(diagnostics))
     return false;
   if (!model_.tears.empty() || !model_.rewrites.empty()) {
     if (forces_->context() == nullptr) {
@@ -61,10 +58,7 @@ bool Simulation::Implementation::prepare(support::Diagnostics& diagnostics) {
       return false;
     }
     changes_ = std::make_unique<MapChanges>(state_, model_, *forces_);
-    if (auto problem = changes_->rebuild()) {
-      diagnostics.report(std::move(*problem));
-      return false;
-    }
+    if (!find_criteria(diagnostics)) return false;
   }
   for (support::Diagnostic& notice : forces_->notices(now_.motion, now_.time))
     diagnostics.report(std::move(notice));
@@ -73,15 +67,14 @@ bool Simulation::Implementation::prepare(support::Diagnostics& diagnostics) {
 
 bool Simulation::Implementation::refresh(std::span<const DartId> touched,
                                          support::Diagnostics& diagnostics) {
-  forces_->refresh(touched);
-  if (!hold_vertices(diagnostics) || !weigh_vertices(diagnostics)) return false;
-  load_motion();
+  return adopt_map(touched, diagnostics) && find_limit(diagnostics);
+}
+
+bool Simulation::Implementation::prescribe_now(support::Diagnostics& diagnostics) {
   prescribed_.begin_step(now_);
-  if (!equations_.prescribe(now_.time, now_.motion)) {
-    diagnostics.report(*equations_.error());
-    return false;
-  }
-  return find_limit(diagnostics) && first_forces(diagnostics);
+  if (equations_.prescribe(now_.time, now_.motion)) return true;
+  diagnostics.report(*equations_.error());
+  return false;
 }
 
 bool Simulation::Implementation::hold_vertices(support::Diagnostics& diagnostics) {

@@ -27,6 +27,7 @@ std::optional<StepReport> Simulation::Implementation::step(double until,
                                     : advance_fixed(until, diagnostics);
   if (!done) return std::nullopt;
   ++steps_;
+  forces_->set_step(steps_);
   report.time = now_.time;
   report.dt = now_.time - begin;
   report.evaluations = static_cast<std::uint32_t>(equations_.evaluations() - before);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "engine/tear_model.h"
@@ -22,6 +21,25 @@ struct TearRequest {
   std::vector<DartId> orbit;     ///< all darts of the orbit that was judged, ascending
 
   [[nodiscard]] double ratio() const { return value / threshold; }
+};
+
+/// A change that was applied because a criterion held: a row of the event table.
+struct TearEvent {
+  std::uint64_t step = 0;          ///< steps completed
+  double time = 0;                 ///< s
+  std::uint32_t pairing = 0;       ///< of the model
+  double value = 0, threshold = 0;
+  DartId dart = gmap::kNoDart;     ///< where the change was applied
+  std::array<double, 3> position{};  ///< of its vertex, m
+  std::uint32_t split = 0, created = 0, removed = 0;  ///< vertices
+};
+
+/// The match of a pairing that was nearest to tearing in all judgements so far.
+struct NearestMatch {
+  double value = 0, threshold = 0;
+  double time = 0;                   ///< s
+  DartId where = gmap::kNoDart;      ///< its hook; none when there never was a match
+  std::array<double, 3> position{};  ///< of that dart's vertex, m
 };
 
 /// Values this close, relative to the larger, are equal: what they belong to goes together, however

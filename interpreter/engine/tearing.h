@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,17 +11,6 @@
 #include "engine/tear_requests.h"
 
 namespace gmsim::engine {
-
-/// A change that was applied because a criterion held: a row of the event table.
-struct TearEvent {
-  std::uint64_t step = 0;          ///< steps completed
-  double time = 0;                 ///< s
-  std::uint32_t pairing = 0;       ///< of the model
-  double value = 0, threshold = 0;
-  DartId dart = gmap::kNoDart;     ///< where the change was applied
-  std::array<double, 3> position{};  ///< of its vertex, m
-  std::uint32_t split = 0, created = 0, removed = 0;  ///< vertices
-};
 
 /// What the requests of one step led to.
 struct TearOutcome {

@@ -76,7 +76,7 @@ class TreeForces final : public ForceField {
   [[nodiscard]] bool reads(Kind kind) const;
   [[nodiscard]] ForceMoment moment(const Motion& motion, double time) const {
     return {.position = motion.position, .velocity = motion.velocity, .time = time,
-            .dt = context_.state.dt, .step = static_cast<double>(context_.state.step)};
+            .dt = context_.state.dt, .step = step()};
   }
   /// Adds the roots of an evaluation to the vertices of a match. False: not finite.
   bool add_roots(TreeInteraction& of, const ForceMatch& match, Evaluation& evaluation,

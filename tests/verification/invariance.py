@@ -147,6 +147,19 @@ def twice():
           sum(other != hashes[0] for other in hashes), 0)
 
 
+def output_changes_nothing():
+    """A force that reads `step` too: the clock may not depend on when frames are written."""
+    (FOLDER / "kick.rule").write_text(
+        "interaction kick on vertex(a) { param size : real; force a on vertex = (0, 0, 1) [N] * size * step; }")
+    ends = []
+    for name, every in (("often", 0.001), ("seldom", 0.05)):
+        scene = cloth(dt=1e-3, duration=0.05, every=every)
+        scene["rules"].append("./kick.rule")
+        scene["bodies"][0]["interactions"]["kick"] = {"size": 1e-5}
+        ends.append(points(run(name, scene)[0]).tobytes())
+    check("runs that differ because frames were written more often", int(ends[0] != ends[1]), 0)
+
+
 def above_the_limit():
     path, text = run("unstable", cloth(dt=0.1, method="rk4"), expect=2)
     words = [word for word in ("0.1", "limit", "_spring` at vertex") if word not in text]
@@ -166,6 +179,7 @@ mirror()
 for name in ("symplectic_euler", "velocity_verlet", "rk4", "bogacki_shampine", "dormand_prince"):
     free_body(name)
 twice()
+output_changes_nothing()
 above_the_limit()
 energy(20000, 1e-3, 7.4e-4)
 if SLOW:

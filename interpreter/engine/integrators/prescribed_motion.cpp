@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
+
+#include "gmap/orbit_walk.h"
 
 namespace gmsim::engine {
 namespace {
@@ -17,6 +20,15 @@ constexpr double kWeight[] = {0.2369268850561891, 0.4786286704993665, 0.56888888
 /// A difference quotient over this part of a step is exact to rounding for motions that the
 /// integrator resolves, and stays on one side of most kinks.
 constexpr double kDifference = 1. / 8;
+
+/// The darts of the vertices of `vertices`.
+std::vector<DartId> all_darts(const State& state, std::span<const DartId> vertices) {
+  std::vector<DartId> darts;
+  for (const DartId vertex : vertices)
+    gmap::for_each_dart(state.map, OrbitType::cell(0, state.map.dimension()), vertex,
+                        [&](DartId d) { darts.push_back(d); });
+  return darts;
+}
 
 }  // namespace
 
@@ -42,11 +54,11 @@ PrescribedMotions::PrescribedMotions(State& state, const std::vector<PrescribedM
     if (rows.empty()) continue;
     const std::size_t first = drivers_.size();
     if (same_everywhere(motion.expression)) {
-      drivers_.push_back({rows, motion.gives_position,
+      drivers_.push_back({all_darts(state, darts), rows, motion.gives_position,
                           ClockExpression(state, motion.expression, darts.front())});
     } else {
       for (std::size_t i = 0; i < rows.size(); ++i)
-        drivers_.push_back({{rows[i]}, motion.gives_position,
+        drivers_.push_back({all_darts(state, {&darts[i], 1}), {rows[i]}, motion.gives_position,
                             ClockExpression(state, motion.expression, darts[i])});
     }
     for (std::size_t i = first; i < drivers_.size(); ++i)
@@ -62,6 +74,18 @@ std::vector<gmap::Row> PrescribedMotions::rows() const {
   for (const Driver& driver : drivers_) all.insert(all.end(), driver.rows.begin(), driver.rows.end());
   std::ranges::sort(all);
   return all;
+}
+
+void PrescribedMotions::follow(const State& state) {
+  const gmap::OrbitIndex* vertices =
+      state.store.find_index(OrbitType::cell(0, state.map.dimension()));
+  for (Driver& driver : drivers_) {
+    std::erase_if(driver.darts, [&](DartId d) { return !state.map.alive(d); });
+    driver.rows.clear();
+    for (const DartId d : driver.darts) driver.rows.push_back(vertices->row(d));
+    std::ranges::sort(driver.rows);
+    driver.rows.erase(std::ranges::unique(driver.rows).begin(), driver.rows.end());
+  }
 }
 
 void PrescribedMotions::begin_step(const PhasePoint& now) {

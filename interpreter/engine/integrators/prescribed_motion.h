@@ -30,6 +30,8 @@ class PrescribedMotions {
   /// The length of a usual step: derivatives are taken over a part of it.
   void set_step(double dt) { step_ = dt; }
 
+  /// Looks the vertices up anew after the map has changed: all parts of a vertex move on.
+  void follow(const State& state);
   void begin_step(const PhasePoint& now);
   /// Positions and velocities at `time`. False after a failure.
   bool apply(double time, Motion& motion);
@@ -37,6 +39,7 @@ class PrescribedMotions {
 
  private:
   struct Driver {
+    std::vector<DartId> darts;  // all of its vertices
     std::vector<gmap::Row> rows;
     bool gives_position = false;
     ClockExpression function;
