@@ -196,9 +196,7 @@ class ApplyJob {
     candidates_ += tried_;
     if (item_->operation)
       return engine::OperationRunner(*rewriter_).run_each(*item_->operation, darts, arguments_);
-    return item_->changes_values_only()
-               ? rewriter_->apply_at_once(*item_->rule, darts, arguments_)
-               : rewriter_->apply_each(*item_->rule, darts, arguments_);
+    return rewriter_->apply_everywhere(*item_->rule, darts, arguments_);
   }
 
   engine::RewriteOutcome apply_at(const std::vector<std::uint32_t>& numbers) {

@@ -38,7 +38,7 @@ void explain_tears(const scene::Scene& scene, engine::Simulation& simulation, st
   if (!reports) return;
   if (reports->empty()) out << "nothing can tear: the scene has no `tear:` section\n";
   for (std::size_t i = 0; i < reports->size(); ++i) {
-    const engine::TearPairing& tear = scene.tears[i];
+    const engine::TearPairing& tear = scene.model.tears[i];
     const auto& [nearest, ratios] = (*reports)[i];
     out << fmt::format("{}:\n", scene.program.criteria[tear.criterion].name);
     if (nearest.where == gmap::kNoDart) {

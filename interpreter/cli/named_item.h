@@ -25,7 +25,6 @@ struct NamedItem {
   [[nodiscard]] types::OrbitType orbit() const {
     return rule ? rule->match.hook_orbit() : operation->orbit;
   }
-  [[nodiscard]] bool changes_values_only() const { return rule && rule->rewrite.changes.empty(); }
   [[nodiscard]] std::string describe(const engine::MatchFailure& failure) const;
 };
 

@@ -175,7 +175,7 @@ class RunJob {
   void summarise(RunEnding ending) {
     RunSummary summary{progress(), ending, simulation_->evaluations(), simulation_->state_hash(),
                        {}};
-    if (!scene_->tears.empty() || !scene_->rewrites.empty()) {
+    if (!scene_->model.tears.empty() || !scene_->model.rewrites.empty()) {
       const gmap::GMap& map = scene_->state->map;
       summary.tears = tears_;
       summary.dropped = dropped_;

@@ -191,7 +191,7 @@ io::RunDescription RunOutput::describe(const support::SourceMap& sources,
   run.series = series();
   run.polyhedra = mesh_.mesh.topology.has_polyhedra();
   run.alpha = links_;
-  for (const engine::TearPairing& tear : scene_.tears) {
+  for (const engine::TearPairing& tear : scene_.model.tears) {
     const auto& program = scene_.program;
     run.criterion_names.push_back(program.criteria[tear.criterion].name);
     run.rule_names.push_back(tear.change.operation ? program.operations[tear.change.target].name

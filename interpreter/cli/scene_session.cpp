@@ -1,26 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/scene_session.h"
 
-#include "gmap/orbit_walk.h"
-
 namespace gmsim::cli {
-namespace {
-
-/// The model with what tears and what is rewritten while it runs.
-engine::Model full_model(const scene::Scene& scene) {
-  engine::Model model = scene.model;
-  model.tears = scene.tears;
-  model.rewrites = scene.rewrites;
-  const auto fixed = scene.program.schema.find("fixed");
-  const engine::State& state = *scene.state;
-  if (scene.on_split == engine::OnSplit::Both || !fixed || !state.store.in_use(*fixed)) return model;
-  for (const gmap::DartId dart :
-       gmap::all_orbits(state.map, types::OrbitType::cell(0, scene.program.dimension)))
-    if (state.store.get(*fixed, dart)[0] != 0) model.holds.push_back({dart, scene.on_split});
-  return model;
-}
-
-}  // namespace
 
 std::unique_ptr<scene::Scene> load_scene(Session& session, const std::vector<std::string>& more) {
   scene::SceneOptions options;
@@ -36,7 +17,7 @@ std::unique_ptr<engine::Simulation> make_simulation(Session& session, scene::Sce
   options.threads = session.options.run.threads;
   options.tree_kernel = session.options.run.tree_kernel;
   options.trace = &session.trace;
-  return engine::Simulation::create(*scene.state, full_model(scene), scene.integrator, options,
+  return engine::Simulation::create(*scene.state, scene.model, scene.integrator, options,
                                     session.diagnostics);
 }
 

@@ -37,9 +37,9 @@ bool keeps_its_mesh(Session& session, const scene::Scene& scene) {
          .place = place,
          .help = "leave it out, or compare runs by what they expect: `gmsim verify`"});
   };
-  for (const engine::TearPairing& tear : scene.tears) refuse(tear.span, "tear");
-  for (const engine::StandingRewrite& rewrite : scene.rewrites) refuse(rewrite.span, "rewrite");
-  return scene.tears.empty() && scene.rewrites.empty();
+  for (const engine::TearPairing& tear : scene.model.tears) refuse(tear.span, "tear");
+  for (const engine::StandingRewrite& rewrite : scene.model.rewrites) refuse(rewrite.span, "rewrite");
+  return scene.model.tears.empty() && scene.model.rewrites.empty();
 }
 
 /// The point as overrides of the scene.

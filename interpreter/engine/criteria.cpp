@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "engine/evaluate_at.h"
 #include "engine/force_context.h"
 
 namespace gmsim::engine {
@@ -75,14 +76,7 @@ Criteria::Diagnostic Criteria::select(const CriterionField& field,
   Diagnostic error;
   if (pairing.where)
     std::erase_if(requests, [&](const TearRequest& request) {
-      Frame frame(pairing.where->frame_size);
-      frame.set(pairing.where->dart, request.hook);
-      bool allowed = false;
-      if (!error && !evaluator_.evaluate_bool(*pairing.where->value, frame, allowed)) {
-        EvalFailure failure = evaluator_.take_failure();
-        if (!failure.missing_optional) error = std::move(failure.diagnostic);
-      }
-      return !allowed;
+      return error || !holds_at(evaluator_, *pairing.where, request.hook, error);
     });
   choose_strongest(requests, pairing.at_most);
   if (pairing.at.empty()) return error;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "compile/expression_search.h"
 #include "engine/force_evaluate.h"
 #include "engine/force_report.h"
 #include "gmap/orbit_walk.h"
@@ -16,7 +17,6 @@ using compile::ValueSource;
 using compile::ValueSources;
 using types::Expr;
 using types::ExprKind;
-using types::ExprPtr;
 
 ValueSource source_of(const DartExpression& expression) {
   const Expr& value = *expression.value;
@@ -59,23 +59,22 @@ compile::Wanted wanted(const compile::CriterionBody& body, types::Slot threshold
   return all;
 }
 
-void collect(const Expr& expr, const gmap::EmbeddingSchema& schema, ForceReads& reads) {
-  if (expr.kind == ExprKind::ForceOn || expr.kind == ExprKind::Forces) reads.any = true;
-  if (expr.kind == ExprKind::ForceOn &&
-      std::find(reads.orbits.begin(), reads.orbits.end(), expr.orbit) == reads.orbits.end())
-    reads.orbits.push_back(expr.orbit);
-  if (expr.kind == ExprKind::Embedding && schema[expr.embedding].derivation)
-    collect(*schema[expr.embedding].derivation, schema, reads);
-  for (const ExprPtr& argument : expr.args) collect(*argument, schema, reads);
-}
-
 }  // namespace
 
 ForceReads force_reads(const compile::CriterionBody& body, const gmap::EmbeddingSchema& schema) {
   ForceReads reads;
-  collect(*body.value, schema, reads);
-  for (const compile::BodyStep& step : body.steps) collect(*step.value, schema, reads);
-  for (const compile::BodyResult& result : body.results) collect(*result.value, schema, reads);
+  const auto collect = [&](const Expr& expr) {
+    (void)compile::any_node(expr, schema, [&](const Expr& node) {
+      reads.any = reads.any || node.kind == ExprKind::ForceOn || node.kind == ExprKind::Forces;
+      if (node.kind == ExprKind::ForceOn &&
+          std::find(reads.orbits.begin(), reads.orbits.end(), node.orbit) == reads.orbits.end())
+        reads.orbits.push_back(node.orbit);
+      return false;  // look at all of them
+    });
+  };
+  collect(*body.value);
+  for (const compile::BodyStep& step : body.steps) collect(*step.value);
+  for (const compile::BodyResult& result : body.results) collect(*result.value);
   return reads;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/apply_change.h"
+#include "engine/evaluate_at.h"
 #include "gmap/orbit_walk.h"
 
 namespace gmsim::engine {
@@ -15,7 +17,6 @@ MapChanges::MapChanges(State& state, const Model& model, const ForceField& force
       model_(model),
       criteria_(state, forces, model.tears),
       rewriter_(state),
-      runner_(rewriter_),
       tearing_(rewriter_, model.tears),
       evaluator_(state) {
   rewriter_.on_created([this](Rewriter& rewriter, EmbeddingId presence, DartId smallest) {
@@ -48,12 +49,10 @@ MapChanges::Diagnostic MapChanges::carry(Rewriter& rewriter, EmbeddingId presenc
           fmt::format("the rule makes a new {} orbit, for which nothing gives `{}`",
                       types::to_string(decl.orbit), decl.name),
           active->span};
-    Frame frame(parameter.expression.frame_size);
-    frame.set(parameter.expression.dart, smallest);
-    std::vector<double> value(types::component_count(decl.type));
-    if (!evaluator_.evaluate(*parameter.expression.value, frame, value))
-      return evaluator_.take_failure().diagnostic;
-    rewriter.set_value(parameter.embedding, smallest, value);
+    Diagnostic error;
+    const auto value = value_at(evaluator_, parameter.expression, smallest, error);
+    if (!value) return error;
+    rewriter.set_value(parameter.embedding, smallest, value->data);
   }
   return std::nullopt;
 }
@@ -72,45 +71,31 @@ MapChanges::Diagnostic MapChanges::run_rewrite(const StandingRewrite& rewrite, E
   Arguments arguments;
   if (Diagnostic error = find_candidates(rewrite, darts)) return error;
   if (Diagnostic error = evaluate_arguments(rewrite, arguments)) return error;
-  RewriteOutcome outcome;
-  if (rewrite.change.operation) {
-    outcome = runner_.run_each(state_.program.operations[rewrite.change.target], darts, arguments);
-  } else {
-    const compile::Rule& rule = state_.program.rules[rewrite.change.target];
-    outcome = rule.rewrite.changes.empty() ? rewriter_.apply_at_once(rule, darts, arguments)
-                                           : rewriter_.apply_each(rule, darts, arguments);
-  }
+  RewriteOutcome outcome = apply_change(rewriter_, rewrite.change, darts, arguments);
   effects.append(outcome.effects);
   return std::move(outcome.error);
 }
 
 MapChanges::Diagnostic MapChanges::find_candidates(const StandingRewrite& rewrite,
                                                    std::vector<DartId>& darts) {
+  Diagnostic error;
   for (const DartId dart : gmap::all_orbits(state_.map, rewrite.to)) {
-    if (rewrite.where) {
-      Frame frame(rewrite.where->frame_size);
-      frame.set(rewrite.where->dart, dart);
-      bool wanted = false;
-      if (!evaluator_.evaluate_bool(*rewrite.where->value, frame, wanted)) {
-        EvalFailure failure = evaluator_.take_failure();
-        if (!failure.missing_optional) return std::move(failure.diagnostic);
-      }
-      if (!wanted) continue;
-    }
-    darts.push_back(dart);
+    if (!rewrite.where || holds_at(evaluator_, *rewrite.where, dart, error)) darts.push_back(dart);
+    if (error) break;
   }
-  return std::nullopt;
+  return error;
 }
 
 MapChanges::Diagnostic MapChanges::evaluate_arguments(const StandingRewrite& rewrite,
                                                       Arguments& arguments) {
+  Diagnostic error;
   for (const SlotValue& parameter : rewrite.parameters) {
-    Frame frame(parameter.value.frame_size);
-    std::optional<types::Value> value = evaluator_.evaluate(*parameter.value.value, frame);
-    if (!value) return evaluator_.take_failure().diagnostic;
+    std::optional<types::Value> value =
+        value_at(evaluator_, parameter.value, gmap::kNoDart, error);
+    if (!value) break;
     arguments.emplace_back(parameter.slot, std::move(*value));
   }
-  return std::nullopt;
+  return error;
 }
 
 // ---- tearing ------------------------------------------------------------------------------------

@@ -57,7 +57,6 @@ class MapChanges {
   const Model& model_;
   Criteria criteria_;
   Rewriter rewriter_;
-  OperationRunner runner_;
   Tearing tearing_;
   TreeEvaluator evaluator_;
   std::vector<std::vector<DartId>> holds_;  // darts of the vertex of each of model_.holds

@@ -83,6 +83,13 @@ RewriteOutcome Rewriter::apply_each(const compile::Rule& rule, std::span<const D
   return outcome;
 }
 
+RewriteOutcome Rewriter::apply_everywhere(const compile::Rule& rule,
+                                          std::span<const DartId> darts,
+                                          const Arguments& arguments) {
+  return rule.rewrite.changes.empty() ? apply_at_once(rule, darts, arguments)
+                                      : apply_each(rule, darts, arguments);
+}
+
 RewriteOutcome Rewriter::apply_at_once(const compile::Rule& rule, std::span<const DartId> darts,
                                        const Arguments& arguments) {
   GMSIM_CHECK(rule.rewrite.changes.empty(), "only rules that change no link apply at once");

@@ -73,6 +73,9 @@ class Rewriter {
   /// then writes; different values for one orbit are an error (E7).
   RewriteOutcome apply_at_once(const compile::Rule& rule, std::span<const DartId> darts,
                                const Arguments& arguments = {});
+  /// At once for a rule that changes values only, else in turn.
+  RewriteOutcome apply_everywhere(const compile::Rule& rule, std::span<const DartId> darts,
+                                  const Arguments& arguments = {});
 
   /// Everything from here on is undone together. Does not nest.
   void begin();

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/apply_change.h"
+#include "engine/evaluate_at.h"
 #include "gmap/orbit_walk.h"
 
 namespace gmsim::engine {
 
 Tearing::Tearing(Rewriter& rewriter, std::span<const TearPairing> pairings)
     : rewriter_(rewriter),
-      runner_(rewriter),
       evaluator_(rewriter.state()),
       pairings_(pairings) {}
 
@@ -85,10 +86,9 @@ Tearing::Failure Tearing::gather_arguments(const TearRequest& request, DartId da
       value.data.assign(request.results.begin() + static_cast<std::ptrdiff_t>(begin),
                         request.results.begin() + static_cast<std::ptrdiff_t>(begin + count));
     } else {
-      Frame frame(argument.value.frame_size);
-      frame.set(argument.value.dart, dart);
-      std::optional<types::Value> computed = evaluator_.evaluate(*argument.value.value, frame);
-      if (!computed) return evaluator_.take_failure().diagnostic;
+      Failure error;
+      std::optional<types::Value> computed = value_at(evaluator_, argument.value, dart, error);
+      if (!computed) return error;
       value = std::move(*computed);
     }
     arguments.emplace_back(argument.slot, std::move(value));
@@ -109,10 +109,7 @@ void Tearing::run(const TearRequest& request, DartId dart, TearOutcome& outcome)
     const std::span<const double> value = state.store.get(*position, dart);
     std::copy(value.begin(), value.end(), event.position.begin());
   }
-  RewriteOutcome done =
-      pairing.change.operation
-          ? runner_.run(state.program.operations[pairing.change.target], dart, arguments)
-          : rewriter_.apply(state.program.rules[pairing.change.target], {&dart, 1}, arguments);
+  RewriteOutcome done = apply_change(rewriter_, pairing.change, dart, arguments);
   if (done.status == RewriteOutcome::Status::Failed) outcome.error = std::move(done.error);
   if (!done.applied()) {
     ++outcome.dropped;

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/operation.h"
 #include "engine/rewrite.h"
 #include "engine/tear_requests.h"
 
@@ -40,7 +39,6 @@ class Tearing {
   void run(const TearRequest& request, DartId dart, TearOutcome& outcome);
 
   Rewriter& rewriter_;
-  OperationRunner runner_;
   TreeEvaluator evaluator_;
   std::span<const TearPairing> pairings_;
   Frame frame_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/expression_search.h"
 #include "engine/enumerate.h"
 #include "scene/acting.h"
 #include "scene/expression_facts.h"
@@ -78,7 +79,7 @@ class Binder {
     return std::ranges::any_of(acting_.uses, [&](const Acting::Use& use) {
       const SceneExpression* expression = given(use, i);
       return expression ? expression->reads_clock
-                        : initial && reads_clock(*initial, building_.scene.program.schema);
+                        : initial && compile::reads_clock(*initial, building_.scene.program.schema);
     });
   }
 
@@ -123,7 +124,7 @@ class Binder {
 
   /// Something may write or read it as a value of its orbit, or divide it.
   [[nodiscard]] bool needs_column(types::EmbeddingId id) const {
-    const bool changes = !building_.scene.tears.empty() || !building_.scene.rewrites.empty();
+    const bool changes = !building_.scene.model.tears.empty() || !building_.scene.model.rewrites.empty();
     const bool divided =
         changes && building_.scene.program.schema[id].kind == gmap::EmbeddingKind::Extensive;
     return divided || written_.contains(id) || building_.reads.contains(id);

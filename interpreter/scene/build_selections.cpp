@@ -70,7 +70,10 @@ void fix(Building& building, Claims& claims) {
     const double yes = 1;
     for (const DartId dart : chosen_vertices(building, plan.vertices)) {
       claims.claim(dart, plan.vertices, true);
+      const bool already = building.state().store.get(fixed, dart)[0] != 0;
       building.state().store.set(fixed, dart, {&yes, 1});
+      if (!already && plan.on_split != engine::OnSplit::Both)
+        building.scene.model.holds.push_back({dart, plan.on_split});
     }
   }
 }

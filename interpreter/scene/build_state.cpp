@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/operation.h"
+#include "engine/apply_change.h"
 #include "gmap/cell_measure.h"
 #include "gmap/mesh.h"
 #include "gmap/orbit_walk.h"
@@ -171,20 +171,13 @@ class Preparer {
 
  private:
   engine::RewriteOutcome apply(const Preparation& preparation, std::size_t body) {
-    const compile::Program& program = building_.scene.program;
     std::vector<DartId> darts;
     DartEvaluator evaluator(building_);
     for (const DartId dart : gmap::all_orbits(building_.state().map, preparation.to))
       if (building_.in_body(dart, body) && evaluator.holds(preparation.where, dart))
         darts.push_back(dart);
     if (evaluator.failed()) return {};
-    if (preparation.change.operation)
-      return engine::OperationRunner(rewriter_).run_each(
-          program.operations[preparation.change.target], darts, preparation.arguments);
-    const compile::Rule& rule = program.rules[preparation.change.target];
-    return rule.rewrite.changes.empty()
-               ? rewriter_.apply_at_once(rule, darts, preparation.arguments)
-               : rewriter_.apply_each(rule, darts, preparation.arguments);
+    return engine::apply_change(rewriter_, preparation.change, darts, preparation.arguments);
   }
 
   bool failed(const engine::RewriteOutcome& outcome, const Preparation& preparation,

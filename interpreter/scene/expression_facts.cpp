@@ -50,17 +50,6 @@ bool is_constant(const Expr& expr) {
   return constant_within(expr, bound);
 }
 
-bool reads_clock(const Expr& expr, const gmap::EmbeddingSchema& schema) {
-  if (expr.kind == ExprKind::Time || expr.kind == ExprKind::Step || expr.kind == ExprKind::Dt)
-    return true;
-  if (expr.kind == ExprKind::Embedding) {
-    const types::ExprPtr& derivation = schema[expr.embedding].derivation;
-    if (derivation && reads_clock(*derivation, schema)) return true;
-  }
-  return std::ranges::any_of(
-      expr.args, [&](const types::ExprPtr& part) { return part && reads_clock(*part, schema); });
-}
-
 void add_read(types::EmbeddingId id, const gmap::EmbeddingSchema& schema,
               std::set<types::EmbeddingId>& reads) {
   if (!reads.insert(id).second) return;

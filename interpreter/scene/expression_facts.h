@@ -12,9 +12,6 @@ namespace gmsim::scene {
 /// it does not bind itself.
 [[nodiscard]] bool is_constant(const types::Expr& expr);
 
-/// It reads the clock (time, step, dt), itself or through derived values.
-[[nodiscard]] bool reads_clock(const types::Expr& expr, const gmap::EmbeddingSchema& schema);
-
 /// Adds every embedding that it reads, itself or through derived values and the weights of splits.
 void add_reads(const types::Expr& expr, const gmap::EmbeddingSchema& schema,
                std::set<types::EmbeddingId>& reads);

@@ -129,19 +129,18 @@ class Loader {
     read_bodies(tree_, context, plan_);
     read_interactions(tree_, context, plan_);
     read_selections(tree_, context, plan_);
-    scene_->tears = read_tears(tree_, context);
-    scene_->rewrites = read_rewrites(tree_, context);
+    scene_->model.tears = read_tears(tree_, context);
+    scene_->model.rewrites = read_rewrites(tree_, context);
     read_output(tree_, context, *scene_);
     read_expectations(tree_, context, *scene_, plan_);
-    read_on_split();
+    require_one_on_split();
     return good();
   }
 
   /// What stays fixed of a torn vertex is a rule of the whole scene.
-  void read_on_split() {
-    for (std::size_t i = 0; i < plan_.fixes.size(); ++i) {
-      if (i == 0) scene_->on_split = plan_.fixes[0].on_split;
-      if (plan_.fixes[i].on_split == scene_->on_split) continue;
+  void require_one_on_split() {
+    for (std::size_t i = 1; i < plan_.fixes.size(); ++i) {
+      if (plan_.fixes[i].on_split == plan_.fixes[0].on_split) continue;
       diagnostics_.report({.kind = DiagnosticKind::Conflict,
                            .message = "`on_split` differs between the entries of `fix`",
                            .place = plan_.fixes[i].vertices.span,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "compile/expression_search.h"
 #include "engine/tree_eval.h"
 #include "scene/expression_facts.h"
 #include "scene/mapped_text.h"
@@ -34,7 +35,7 @@ SceneExpression ReadContext::expression(const YamlNode& node, const check::Wante
   if (found.has_errors()) result.code.value = nullptr;
   if (result.good()) {
     result.constant = is_constant(*result.code.value);
-    result.reads_clock = scene::reads_clock(*result.code.value, program.schema);
+    result.reads_clock = compile::reads_clock(*result.code.value, program.schema);
   }
   return result;
 }

@@ -75,9 +75,6 @@ struct Scene {
   std::uint64_t seed = 1;
   OutputPlan output;
   std::vector<Expectation> expectations;
-  std::vector<engine::TearPairing> tears;  ///< `tear`; a run that cannot tear must refuse them
-  std::vector<engine::StandingRewrite> rewrites;  ///< `rewrite`; likewise
-  engine::OnSplit on_split = engine::OnSplit::Both;  ///< of every `fix`
   std::vector<BodySummary> bodies;
   /// The point of every dart's vertex: the mesh's numbering, bodies one after another; by dart.
   std::vector<std::uint32_t> dart_point;

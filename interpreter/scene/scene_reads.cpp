@@ -24,8 +24,8 @@ class Reads {
     }
     for (const OutputField& field : scene.output.fields) add(field.value);
     for (const Expectation& expectation : scene.expectations) add(expectation.value);
-    for (const engine::TearPairing& tear : scene.tears) add(tear);
-    for (const engine::StandingRewrite& rewrite : scene.rewrites) {
+    for (const engine::TearPairing& tear : scene.model.tears) add(tear);
+    for (const engine::StandingRewrite& rewrite : scene.model.rewrites) {
       add(rewrite.change);
       if (rewrite.where) add(*rewrite.where);
       for (const engine::SlotValue& parameter : rewrite.parameters) add(parameter.value);
@@ -93,8 +93,8 @@ Ids embeddings_written(const Scene& scene) {
                                           : library.rules[change.target].footprint.writes;
     ids.insert(writes.begin(), writes.end());
   };
-  for (const engine::TearPairing& tear : scene.tears) add(tear.change);
-  for (const engine::StandingRewrite& rewrite : scene.rewrites) add(rewrite.change);
+  for (const engine::TearPairing& tear : scene.model.tears) add(tear.change);
+  for (const engine::StandingRewrite& rewrite : scene.model.rewrites) add(rewrite.change);
   return ids;
 }
 

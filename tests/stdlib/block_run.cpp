@@ -132,8 +132,7 @@ class BlockRun {
     }
     if (rule.match.hooks.empty()) return rewriter_.apply(rule, {}, given);
     const auto darts = candidates(node, rule.match.hook_orbit());
-    return rule.rewrite.changes.empty() ? rewriter_.apply_at_once(rule, darts, given)
-                                        : rewriter_.apply_each(rule, darts, given);
+    return rewriter_.apply_everywhere(rule, darts, given);
   }
 
   engine::RewriteOutcome apply_operation(const compile::Operation& operation,

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "compile/expression_search.h"
+
 namespace gmsim::engine {
 namespace {
 
@@ -25,7 +27,7 @@ class Folder {
   ExprPtr fold(const ExprPtr& expr) {
     if (failure_) return expr;
     const bool constant = expr->kind != ExprKind::Literal && is_storable(expr->type) &&
-                          !depends_on_clock(*expr) && needs_only_known(*expr, known_);
+                          !compile::reads_clock(*expr, schema_) && needs_only_known(*expr, known_);
     if (constant) return value_of(*expr);
     auto copy = std::make_shared<Expr>(*expr);
     if (expr->kind == ExprKind::Let) {
@@ -42,21 +44,6 @@ class Folder {
 
  private:
   using Slots = std::unordered_set<std::uint32_t>;
-
-  bool depends_on_clock(const Expr& expr) const {
-    switch (expr.kind) {
-      case ExprKind::Time:
-      case ExprKind::Step:
-      case ExprKind::Dt:
-        return true;
-      default:
-        break;
-    }
-    const bool reads = expr.kind == ExprKind::Embedding || expr.kind == ExprKind::Has;
-    const ExprPtr derivation = reads ? schema_[expr.embedding].derivation : nullptr;
-    if (derivation != nullptr && depends_on_clock(*derivation)) return true;
-    return std::ranges::any_of(expr.args, [&](const ExprPtr& arg) { return depends_on_clock(*arg); });
-  }
 
   /// Every local that `expr` reads is bound inside of it or among `known`.
   static bool needs_only_known(const Expr& expr, const Slots& known) {
@@ -84,7 +71,7 @@ class Folder {
   }
 
   void fold_let(Expr& let) {
-    const bool constant = !depends_on_clock(*let.args[0]) && needs_only_known(*let.args[0], known_);
+    const bool constant = !compile::reads_clock(*let.args[0], schema_) && needs_only_known(*let.args[0], known_);
     const std::uint32_t slot = types::index(let.slot);
     let.args[0] = fold(let.args[0]);
     if (failure_) return;

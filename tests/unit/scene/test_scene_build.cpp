@@ -328,10 +328,12 @@ TEST_CASE("tearing and rewriting are read for who can do them; what they divide 
              "} ]\n");
   const LoadedScene loaded(folder.write("s.yaml", text));
   REQUIRE(loaded.rendered() == "");
-  CHECK(loaded.scene->tears.size() == 1);
-  CHECK(loaded.scene->tears[0].at_most == 2u);
-  CHECK(loaded.scene->rewrites.size() == 1);
-  CHECK(loaded.scene->on_split == engine::OnSplit::Release);
+  CHECK(loaded.scene->model.tears.size() == 1);
+  CHECK(loaded.scene->model.tears[0].at_most == 2u);
+  CHECK(loaded.scene->model.rewrites.size() == 1);
+  REQUIRE(loaded.scene->model.holds.size() == 4);
+  for (const engine::Hold& hold : loaded.scene->model.holds)
+    CHECK(hold.on_split == engine::OnSplit::Release);
   CHECK(loaded.parameter("stretch_spring", "rest").kind == ParameterBinding::Kind::Stored);
   CHECK(LoadedScene(folder.write("t.yaml", exchanged(text, "threshold: 1.5", "threshold: 0")))
             .errors()
