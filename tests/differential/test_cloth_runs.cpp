@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "support/cloth_world.h"
+#include "support/integrator_settings.h"
 
 namespace gmsim {
 namespace {
 
 using gmap::GridCells;
 using tests::ClothWorld;
+using tests::with_warning;
 
 const std::vector<std::uint32_t> kCorners = {0, 3, 12, 15};
 
@@ -71,17 +73,9 @@ const std::vector<std::array<double, 3>> kSwinging = {
     {0.6669037221147143, 0.9934093757539553, -0.013504652100793477},
     {1.0, 1.0, 0.0}};
 
-engine::IntegratorSettings with(const std::string& method, double dt) {
-  engine::IntegratorSettings settings;
-  settings.method = method;
-  settings.dt = dt;
-  settings.on_unstable = engine::OnUnstable::Warn;
-  return settings;
-}
-
 double damped_quads(const std::string& method, int steps) {
   ClothWorld world(3, GridCells::Quads, 0.1, kCorners);
-  const auto simulation = world.simulate(with(method, 1.0 / steps));
+  const auto simulation = world.simulate(with_warning(method, 1.0 / steps));
   REQUIRE_MESSAGE(simulation, world.messages());
   world.run(*simulation, 1);
   CHECK(simulation->steps() == static_cast<std::uint64_t>(steps));
@@ -89,7 +83,7 @@ double damped_quads(const std::string& method, int steps) {
 }
 double triangles(const std::string& method, int steps) {
   ClothWorld world(3, GridCells::Triangles, 0, kCorners);
-  const auto simulation = world.simulate(with(method, 1.0 / steps));
+  const auto simulation = world.simulate(with_warning(method, 1.0 / steps));
   REQUIRE_MESSAGE(simulation, world.messages());
   world.run(*simulation, 1);
   return world.error(kTriangles);
@@ -121,7 +115,7 @@ TEST_CASE("errors of each method on the damped cloth, and their orders") {
 
 TEST_CASE("a swinging cloth follows the independent trajectory") {
   ClothWorld world(3, GridCells::Quads, 0.1, {12, 15});
-  const auto simulation = world.simulate(with("rk4", 2.5e-4));
+  const auto simulation = world.simulate(with_warning("rk4", 2.5e-4));
   REQUIRE_MESSAGE(simulation, world.messages());
   world.run(*simulation, 1);
   CHECK(world.error(kSwinging) < 1e-9);
@@ -165,7 +159,7 @@ TEST_CASE("stability estimates of cloths against eigenvalues") {
                       {10, GridCells::Quads, {110, 120}, 663436.846196323}};
   for (const Row& row : rows) {
     ClothWorld world(row.patches, row.cells, 0, row.fixed);
-    const auto simulation = world.simulate(with("rk4", 1e-3));
+    const auto simulation = world.simulate(with_warning("rk4", 1e-3));
     REQUIRE_MESSAGE(simulation, world.messages());
     const engine::StabilityLimit& limit = simulation->limit();
     const double ratio = limit.omega_global * limit.omega_global / row.lambda;
@@ -179,7 +173,7 @@ TEST_CASE("stability estimates of cloths against eigenvalues") {
 TEST_CASE("a step just below the limit finishes, one just above is refused") {
   const double limit = 2.0 / std::sqrt(76637.83183094935);
   const auto settings = [&](double part) {
-    engine::IntegratorSettings result = with("velocity_verlet", part * limit);
+    engine::IntegratorSettings result = with_warning("velocity_verlet", part * limit);
     result.on_unstable = engine::OnUnstable::Error;
     return result;
   };
@@ -194,7 +188,7 @@ TEST_CASE("a step just below the limit finishes, one just above is refused") {
 
 TEST_CASE("a far too long step is reported before it starts, and stopped when it goes on") {
   ClothWorld world(3, GridCells::Quads, 0.1, kCorners);
-  const auto simulation = world.simulate(with("rk4", 0.1));
+  const auto simulation = world.simulate(with_warning("rk4", 0.1));
   REQUIRE(simulation);
   REQUIRE(world.diagnostics.all().size() == 1);
   CHECK(world.diagnostics.all()[0].kind == support::DiagnosticKind::Unstable);

@@ -232,6 +232,10 @@ class SpringChain final : public HandWrittenForces {
  private:
   double stiffness_, rest_, damping_, weight_;
 };
+/// The chain that tests of a whole simulation hang up.
+inline std::unique_ptr<engine::ForceField> springs() {
+  return std::make_unique<SpringChain>(20, 0.5, 0.02, 0.1, 9.81);
+}
 
 /// A function of position, velocity and time on every vertex.
 class ForcesOf final : public HandWrittenForces {

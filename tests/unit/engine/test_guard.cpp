@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/guard.h"
+#include "support/integrator_settings.h"
 #include "support/particle_world.h"
 
 namespace gmsim {
@@ -15,16 +16,9 @@ using tests::ForcesOf;
 using tests::Oscillators;
 using tests::ParticleWorld;
 using tests::VertexRecord;
+using tests::with_warning;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-engine::IntegratorSettings with(const std::string& method, double dt) {
-  engine::IntegratorSettings settings;
-  settings.method = method;
-  settings.dt = dt;
-  settings.on_unstable = engine::OnUnstable::Warn;
-  return settings;
-}
 
 TEST_CASE("one look finds whatever is no number") {
   engine::PhasePoint point;
@@ -61,7 +55,7 @@ TEST_CASE("nothing that is no number leaves a step") {
     auto forces = std::make_unique<ForcesOf>([](const VertexRecord& x, const VertexRecord&, double t) {
       return VertexRecord{0, 0, t > 0.1 && x.x > 0.9 ? kNaN : 1};
     });
-    engine::IntegratorSettings settings = with(method, 0.03);
+    engine::IntegratorSettings settings = with_warning(method, 0.03);
     settings.dt_max = 0.03;
     const auto simulation = world.simulate(std::move(forces), settings);
     REQUIRE(simulation);
@@ -90,7 +84,7 @@ TEST_CASE("a run above its limit is stopped early, with the limit") {
   for (const std::string method : {"symplectic_euler", "velocity_verlet", "rk4"}) {
     ParticleWorld world(3);
     world.place(0, {0.01, 0, 0});
-    const auto simulation = world.simulate(std::make_unique<Oscillators>(1, 0), with(method, 4));
+    const auto simulation = world.simulate(std::make_unique<Oscillators>(1, 0), with_warning(method, 4));
     REQUIRE(simulation);
     REQUIRE(world.diagnostics.all().size() == 1);  // the warning
     int steps = 0;
@@ -107,7 +101,7 @@ TEST_CASE("a fast body is no blow-up") {
   ParticleWorld world(3);
   for (std::uint32_t k = 0; k < 3; ++k) world.throw_at(k, {500, 0, 0});
   const auto simulation = world.simulate(
-      std::make_unique<tests::SpringChain>(1, 0.5, 0, 1), with("velocity_verlet", 0.1));
+      std::make_unique<tests::SpringChain>(1, 0.5, 0, 1), with_warning("velocity_verlet", 0.1));
   REQUIRE(simulation);
   for (int i = 0; i < 1000; ++i) REQUIRE(simulation->step(1e9, world.diagnostics));
   CHECK(world.diagnostics.all().empty());
@@ -125,7 +119,7 @@ TEST_CASE("an error of the forces is passed on with step and time") {
     }
   };
   ParticleWorld world(2);
-  const auto simulation = world.simulate(std::make_unique<Failing>(), with("rk4", 0.1));
+  const auto simulation = world.simulate(std::make_unique<Failing>(), with_warning("rk4", 0.1));
   REQUIRE(simulation);
   while (simulation->step(1, world.diagnostics)) {}
   CHECK(simulation->steps() == 5);

@@ -9,6 +9,7 @@
 
 #include "engine/integrators/integrator.h"
 #include "engine/integrators/test_equation.h"
+#include "support/integrator_settings.h"
 #include "support/particle_world.h"
 
 namespace gmsim {
@@ -20,14 +21,7 @@ using tests::Oscillators;
 using tests::ParticleWorld;
 using tests::SpringChain;
 using tests::VertexRecord;
-
-engine::IntegratorSettings with_step(const std::string& method, double dt) {
-  engine::IntegratorSettings settings;
-  settings.method = method;
-  settings.dt = dt;
-  settings.on_unstable = engine::OnUnstable::Warn;
-  return settings;
-}
+using tests::with_warning;
 
 constexpr double kZ[] = {0.1, 0.5, 1.0, 1.9, 2.1, 2.8, 2.9};
 
@@ -105,7 +99,7 @@ TEST_CASE("growth over a thousand steps of a run") {
     world.place(0, {1, 0, 0});
     world.place(1, {0, 1, 0});
     const auto simulation =
-        world.simulate(std::make_unique<Oscillators>(1, 0), with_step("rk4", z));
+        world.simulate(std::make_unique<Oscillators>(1, 0), with_warning("rk4", z));
     REQUIRE(simulation);
     const double before = simulation->totals().kinetic + simulation->totals().potential;
     for (int i = 0; i < 1000; ++i) REQUIRE(simulation->step(1e9, world.diagnostics));
@@ -122,7 +116,7 @@ TEST_CASE("what symplectic methods conserve over a million steps") {
     world.place(0, {1, 0, 0});
     world.place(1, {0, 0, 0});
     const auto simulation =
-        world.simulate(std::make_unique<Oscillators>(1, 0), with_step(method, z));
+        world.simulate(std::make_unique<Oscillators>(1, 0), with_warning(method, z));
     REQUIRE(simulation);
     double worst = 0;
     for (int i = 0; i < 1000000; ++i) {
@@ -146,7 +140,7 @@ double chain_error(const std::string& method, double dt, double damping) {
     ParticleWorld world(5, 0.1);
     world.fix(0);
     const auto simulation = world.simulate(
-        std::make_unique<SpringChain>(20, 0.25, damping, 0.1, 9.81), with_step(name, step));
+        std::make_unique<SpringChain>(20, 0.25, damping, 0.1, 9.81), with_warning(name, step));
     REQUIRE(simulation);
     world.run(*simulation, 1);
     std::vector<double> x;
@@ -208,7 +202,7 @@ AdaptiveRun adaptive_run(const std::string& method, double rtol) {
     ParticleWorld exact(5, 0.1);
     exact.fix(0);
     const auto rk4 = exact.simulate(std::make_unique<SpringChain>(20, 0.25, 0.05, 0.1, 9.81),
-                                    with_step("rk4", 5e-5));
+                                    with_warning("rk4", 5e-5));
     exact.run(*rk4, 1);
     std::vector<double> x;
     for (std::uint32_t k = 0; k < 5; ++k)
@@ -250,7 +244,7 @@ TEST_CASE("dense output is as good as the steps") {
     simulation->dense_positions(time, dense);
     ParticleWorld exact(3, 0.1);
     exact.fix(0);
-    const auto rk4 = exact.simulate(make(), with_step("rk4", 1e-4));
+    const auto rk4 = exact.simulate(make(), with_warning("rk4", 1e-4));
     exact.run(*rk4, time);
     for (std::uint32_t k = 0; k < 3; ++k)
       for (std::size_t c = 0; c < 3; ++c)

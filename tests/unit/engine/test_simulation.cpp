@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "support/integrator_settings.h"
 #include "support/particle_world.h"
 
 namespace gmsim {
@@ -12,16 +13,8 @@ namespace {
 using tests::Oscillators;
 using tests::ParticleWorld;
 using tests::SpringChain;
-
-engine::IntegratorSettings with(const std::string& method, double dt) {
-  engine::IntegratorSettings settings;
-  settings.method = method;
-  settings.dt = dt;
-  return settings;
-}
-std::unique_ptr<engine::ForceField> springs() {
-  return std::make_unique<SpringChain>(20, 0.5, 0.02, 0.1, 9.81);
-}
+using tests::springs;
+using tests::with;
 
 /// The messages of a world in which no simulation can be made.
 std::string refused(const engine::IntegratorSettings& settings,
