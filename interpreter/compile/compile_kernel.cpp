@@ -88,27 +88,20 @@ class Selection {
 
   void run(RegisterPlan& plan) {
     done_.assign(graph_.size(), false);
-    const std::vector<std::uint32_t> opposites = find_opposites();
     for (std::uint32_t k = 0; k < roots_.size(); ++k) {
-      const bool stored_with_other =
-          std::find(opposites.begin(), opposites.end(), k) != opposites.end();
-      if (stored_with_other) continue;
       emit_all(roots_[k], plan);
       const View view = value_of(roots_[k]);
       const ValueKind type = graph_[roots_[k]].type;
-      const bool both = opposites[k] != kNoRoot;
-      plan.instruction({.op = both ? KernelOp::StoreBoth : KernelOp::Store,
+      plan.instruction({.op = KernelOp::Store,
                         .type = type,
                         .operands = {{{view.owner, view.row, rows_of(type)}}},
-                        .numbers = {k, both ? opposites[k] : 0},
+                        .numbers = {k, 0},
                         .span = graph_[roots_[k]].span});
     }
   }
   [[nodiscard]] const std::vector<KernelInput>& inputs() const { return inputs_; }
 
  private:
-  static constexpr std::uint32_t kNoRoot = 0xffffffffu;
-
   /// The instruction that computes a node.
   struct Choice {
     KernelOp op{};
@@ -117,22 +110,6 @@ class Selection {
     std::array<std::uint32_t, 2> numbers = {};
     std::uint8_t rows = 0;
   };
-
-  /// For each root the one that is minus it, as action and reaction are; kNoRoot where there is
-  /// none.
-  [[nodiscard]] std::vector<std::uint32_t> find_opposites() const {
-    std::vector<std::uint32_t> result(roots_.size(), kNoRoot);
-    std::unordered_map<std::uint32_t, std::uint32_t> by_node;
-    for (std::uint32_t k = 0; k < roots_.size(); ++k) by_node.emplace(index(roots_[k]), k);
-    for (std::uint32_t k = 0; k < roots_.size(); ++k) {
-      const Node& node = graph_[roots_[k]];
-      if (node.op != Op::Neg || node.type != ValueKind::Vec3 || uniform_[index(roots_[k])])
-        continue;
-      const auto of = by_node.find(index(node.operands[0]));
-      if (of != by_node.end() && result[of->second] == kNoRoot) result[of->second] = k;
-    }
-    return result;
-  }
 
   void view(NodeId id) {
     const Node& node = graph_[id];

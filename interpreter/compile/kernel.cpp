@@ -23,7 +23,6 @@ std::uint32_t cost(const KernelInstruction& instruction) {
   switch (instruction.op) {
     case KernelOp::Gather:
     case KernelOp::Store:
-    case KernelOp::StoreBoth:
     case KernelOp::Vector:
     case KernelOp::Transpose:
     case KernelOp::Full:
@@ -91,8 +90,6 @@ std::string line(const Kernel& kernel, const KernelInstruction& i, std::uint32_t
   std::string text;
   if (i.op == KernelOp::Store) {
     text = fmt::format("out{} = ", i.numbers[0]);
-  } else if (i.op == KernelOp::StoreBoth) {
-    text = fmt::format("out{} out{} = ", i.numbers[0], i.numbers[1]);
   } else {
     text = fmt::format("{}.{} = ", register_text(kernel, i.d, uniform_begin), i.d.rows);
   }

@@ -20,7 +20,7 @@ struct AtomicForce {
   types::OrbitType orbit;             ///< ORBIT
   types::InteractionId interaction{};
   std::uint32_t slot = 0;             ///< of the force on the vertex, among those of the force field
-  double share = 1;                   ///< of that force
+  double share = 1;                   ///< of what stands there; negative where that is the opposite
 };
 
 /// All internal atomic forces: what force_on() and forces() read. Loads (`external`) are not among

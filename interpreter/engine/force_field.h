@@ -39,6 +39,13 @@ class ForceField {
   /// then says which rule, place and match.
   virtual bool evaluate(const Motion& motion, double time, double dt,
                         std::span<VertexRecord> force) = 0;
+  /// The same at the end of a step, which is the state that criteria judge and where the next step
+  /// begins. With ForceOptions::atomic the forces of single matches are computed there, each by
+  /// itself, and kept.
+  virtual bool evaluate_end(const Motion& motion, double time, double dt,
+                            std::span<VertexRecord> force) {
+    return evaluate(motion, time, dt, force);
+  }
   /// Sum of all energies (J).
   virtual bool potential_energy(const Motion& motion, double time, double& energy) = 0;
   /// out[row] := (d force / d position) . dx + (d force / d velocity) . dv, for the stability
@@ -72,11 +79,12 @@ class ForceField {
   [[nodiscard]] virtual bool reads_velocity() const = 0;
   [[nodiscard]] virtual bool reads_time() const = 0;
 
-  // What criteria read; a field without a context keeps no forces of single matches.
+  // What criteria read; a field without a context keeps no forces of single matches. Atomic forces
+  // need ForceOptions::atomic.
   [[nodiscard]] virtual const ForceContext* context() const { return nullptr; }
-  /// Appends every internal atomic force, in the canonical order.
+  /// Appends every internal atomic force that is kept, in the canonical order.
   virtual void list_atomic(std::vector<AtomicForce>&) const {}
-  /// The forces of single matches on vertices (N), as the last evaluate() left them.
+  /// The forces of single matches on vertices (N), as the last evaluate_end() left them.
   [[nodiscard]] virtual std::span<const VertexRecord> atomic_slots() const { return {}; }
 
   /// Takes over changed topology and values; `touched` as in Effects.
@@ -93,6 +101,8 @@ struct ForceOptions {
   /// Add up matches between the same two vertices (parallel springs) where their forces are linear
   /// in what differs. Changes rounding, so it has to depend on rules and criteria alone.
   bool merge = true;
+  /// Keep the forces of single matches at the ends of steps, for criteria.
+  bool atomic = false;
 };
 
 /// Batched kernels over cached match tables (the engine that runs), on `threads` threads.

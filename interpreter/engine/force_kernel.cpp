@@ -19,13 +19,33 @@ const double* numbers(std::span<const VertexRecord> records) {
 
 ForceKernel::ForceKernel(ForceProgram program)
     : program_(std::move(program)),
-      kernel_(compile::compile_kernel(program_.graph, program_.roots)) {
+      kernel_(compile::compile_kernel(program_.graph, share_opposites())) {
   for (const compile::KernelInput& input : kernel_.inputs) {
     const auto live = std::find_if(program_.inputs.begin(), program_.inputs.end(),
                                    [&](const auto& l) { return l.number == input.input; });
     GMSIM_CHECK(live != program_.inputs.end(), "a kernel reads an input that nobody knows");
     origins_.push_back(live->origin);
   }
+}
+
+std::vector<compile::ir::NodeId> ForceKernel::share_opposites() {
+  namespace ir = compile::ir;
+  const std::vector<ir::NodeId>& roots = program_.roots;
+  const auto is_vector = [&](ir::NodeId node) {
+    return program_.graph[node].type == types::ValueKind::Vec3;
+  };
+  const auto negated = [&](ir::NodeId node) {
+    return program_.graph[node].op == ir::Op::Neg ? program_.graph[node].operands[0] : ir::kNone;
+  };
+  std::vector<ir::NodeId> computed;
+  for (const ir::NodeId root : roots) {
+    const auto other = std::find_if(computed.begin(), computed.end(), [&](ir::NodeId node) {
+      return is_vector(root) && (negated(root) == node || negated(node) == root);
+    });
+    roots_.push_back({static_cast<std::uint32_t>(other - computed.begin()), other != computed.end()});
+    if (other == computed.end()) computed.push_back(root);
+  }
+  return computed;
 }
 
 InputBinding ForceKernel::binding(const InputOrigin& origin, const MatchTable& table,
@@ -67,6 +87,18 @@ void ForceKernel::bind(const MatchTable& table, const gmap::EmbeddingStore& stor
   bindings.clear();
   for (const InputOrigin& origin : origins_)
     bindings.push_back(binding(origin, table, store, moment));
+}
+
+std::optional<std::uint32_t> ForceKernel::run(const MatchTable& table,
+                                              std::span<const InputBinding> inputs,
+                                              std::span<const OutputBinding> outputs,
+                                              std::uint32_t begin, std::uint32_t end,
+                                              KernelScratch& scratch) const {
+  while (const auto row = run_kernel(kernel_, inputs, outputs, begin, end, scratch)) {
+    if (!table.vacant(*row)) return row;
+    begin = *row + 1;
+  }
+  return std::nullopt;
 }
 
 }  // namespace gmsim::engine

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <numeric>
 #include <utility>
 
 #include "engine/force_linear.h"
@@ -189,8 +188,9 @@ void MergedTable::add_group(std::span<const Candidate> group) {
 void MergedTable::rebuild(const MatchTable& atomic, const gmap::EmbeddingStore& store) {
   table_.clear();
   by_key_.clear();
-  std::vector<std::uint32_t> rows(atomic.size());
-  std::iota(rows.begin(), rows.end(), 0u);
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t row = 0; row < atomic.size(); ++row)
+    if (!atomic.vacant(row)) rows.push_back(row);
   group(atomic, store, rows);
 }
 
@@ -241,8 +241,7 @@ void MergedTable::members(std::uint32_t row, std::vector<DartId>& keys) const {
 void MergedTable::remove(std::uint32_t row) {
   for (DartId key = table_.key(row); key != gmap::kNoDart;)
     key = std::exchange(by_key_[types::index(key)], Member{}).next;
-  table_.remove(row);
-  if (row < table_.size()) by_key_[types::index(table_.key(row))].row = row;
+  table_.vacate(row);
 }
 
 }  // namespace gmsim::engine

@@ -44,7 +44,7 @@ class MergedTable {
   [[nodiscard]] std::uint32_t group_of(DartId key) const;
   /// Appends the keys of a group's matches.
   void members(std::uint32_t row, std::vector<DartId>& keys) const;
-  /// Takes a group out; the last one moves into its row.
+  /// Takes a group out.
   void remove(std::uint32_t row);
   /// Groups these rows of the table of matches; new groups are appended.
   void group(const MatchTable& atomic, const gmap::EmbeddingStore& store,

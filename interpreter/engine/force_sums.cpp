@@ -7,91 +7,56 @@
 
 namespace gmsim::engine {
 
-namespace {
-
-/// A match of one of several tables.
-struct Entry {
-  DartId key;
-  std::uint32_t block;
-  std::uint32_t row;
-};
-
-/// All matches of an interaction in the order of their keys.
-std::vector<Entry> in_order(std::span<const ForceBlock> blocks) {
-  std::vector<Entry> entries;
-  for (std::uint32_t b = 0; b < blocks.size(); ++b)
-    for (std::uint32_t row = 0; row < blocks[b].table->size(); ++row)
-      entries.push_back({blocks[b].table->key(row), b, row});
-  const auto before = [](const Entry& a, const Entry& b) { return a.key < b.key; };
-  if (!std::is_sorted(entries.begin(), entries.end(), before))
-    std::sort(entries.begin(), entries.end(), before);
-  return entries;
-}
-
-}  // namespace
-
-void ForceSums::rebuild(std::span<const ForceBlock> blocks, Row vertices) {
-  lists_.assign(vertices, {});
-  for (const ForceBlock& block : blocks)
-    for (const std::uint32_t role : block.roles)
-      for (const Row vertex : block.table->rows(role)) ++lists_[vertex].capacity;
+void ForceSums::make_room() {
   std::uint32_t begin = 0;
-  for (List& list : lists_) {
+  for (SlotList& list : lists_) {
     list.begin = begin;
     begin += list.capacity;
   }
   slots_.resize(begin);
-  for (std::size_t first = 0, last = 0; first < blocks.size(); first = last) {
-    while (last < blocks.size() && blocks[last].interaction == blocks[first].interaction) ++last;
-    append(blocks.subspan(first, last - first));
-  }
-}
-
-void ForceSums::append(std::span<const ForceBlock> of_one_interaction) {
-  for (const Entry& entry : in_order(of_one_interaction)) {
-    const ForceBlock& block = of_one_interaction[entry.block];
-    for (std::uint32_t root = 0; root < block.roles.size(); ++root) {
-      List& list = lists_[block.table->rows(block.roles[root])[entry.row]];
-      slots_[list.begin + list.count++] = block.slot(root, entry.row);
-    }
-  }
+  orders_.resize(begin);
 }
 
 void ForceSums::grow(Row vertices) {
   if (vertices > lists_.size()) lists_.resize(vertices);
 }
 
-std::span<std::uint32_t> ForceSums::with_room(Row vertex) {
-  List& list = lists_[vertex];
-  if (list.count == list.capacity) {  // moves to the end; the old place is lost until a rebuild
-    const auto begin = static_cast<std::uint32_t>(slots_.size());
-    list.capacity = list.count + list.count / 2 + 4;
-    slots_.resize(begin + list.capacity);
-    std::copy_n(slots_.begin() + list.begin, list.count, slots_.begin() + begin);
-    list.begin = begin;
-  }
-  return {slots_.data() + list.begin, ++list.count};
+/// Moves a full list to the end; its old place is lost until all lists are made again.
+void ForceSums::extend(SlotList& list) {
+  const auto begin = static_cast<std::uint32_t>(slots_.size());
+  list.capacity = list.count + list.count / 2 + 4;
+  slots_.resize(begin + list.capacity);
+  orders_.resize(begin + list.capacity);
+  std::copy_n(slots_.begin() + list.begin, list.count, slots_.begin() + begin);
+  std::copy_n(orders_.begin() + list.begin, list.count, orders_.begin() + begin);
+  list.begin = begin;
 }
 
-void ForceSums::erase(Row vertex, std::uint32_t slot) {
-  List& list = lists_[vertex];
-  const auto begin = slots_.begin() + list.begin, end = begin + list.count;
-  const auto at = std::find(begin, end, slot);
-  GMSIM_CHECK(at != end, "a force that is taken away was not there");
+void ForceSums::insert(const Term& term) {
+  SlotList& list = lists_[term.vertex];
+  if (list.count == list.capacity) extend(list);
+  std::uint32_t at = list.begin + list.count++;
+  for (; at > list.begin && term.order < orders_[at - 1]; --at) {
+    orders_[at] = orders_[at - 1];
+    slots_[at] = slots_[at - 1];
+  }
+  orders_[at] = term.order;
+  slots_[at] = term.slot;
+}
+
+void ForceSums::erase(Row vertex, ForceOrder order) {
+  SlotList& list = lists_[vertex];
+  const auto begin = orders_.begin() + list.begin, end = begin + list.count;
+  const auto at = std::lower_bound(begin, end, order);
+  GMSIM_CHECK(at != end && *at == order, "a force that is taken away was not there");
+  const auto slot = slots_.begin() + (at - orders_.begin());
+  std::copy(slot + 1, slots_.begin() + list.begin + list.count, slot);
   std::copy(at + 1, end, at);
   --list.count;
 }
 
-void ForceSums::rename(Row vertex, std::uint32_t from, std::uint32_t to) {
-  const List& list = lists_[vertex];
-  const auto begin = slots_.begin() + list.begin, end = begin + list.count;
-  const auto at = std::find(begin, end, from);
-  GMSIM_CHECK(at != end, "a force that moves was not there");
-  *at = to;
-}
-
 void ForceSums::sum(const VertexRecord* forces, Row begin, Row end, VertexRecord* out) const {
-  if (begin == end) return;
+  if (begin >= end) return;
   sum_records(&forces->x, lists_.data() + begin, slots_.data(), end - begin, &out[begin].x);
 }
 

@@ -7,63 +7,66 @@
 
 #include "engine/force_field.h"
 #include "engine/kernel/record_sums.h"
-#include "engine/match_table.h"
 
 namespace gmsim::engine {
 
-/// Where the kernels of one table leave their forces: root k of match m in slot
-/// first + k * capacity + m of one array for all tables.
-struct ForceBlock {
-  const MatchTable* table = nullptr;
-  std::vector<std::uint32_t> roles;  ///< vertex of each root
-  std::uint32_t interaction = 0;     ///< number in the model
-  std::uint32_t first = 0;
-  std::uint32_t capacity = 0;        ///< matches there is room for
+/// The place of a force among the others on its vertex: by interaction, by key of the match, by
+/// number among the forces of the match.
+using ForceOrder = std::uint64_t;
+[[nodiscard]] inline ForceOrder force_order(std::uint32_t interaction, DartId key,
+                                            std::uint32_t force) {
+  return std::uint64_t{interaction} << 48 | std::uint64_t{types::index(key)} << 16 | force;
+}
+[[nodiscard]] inline std::uint32_t interaction_of(ForceOrder order) {
+  return static_cast<std::uint32_t>(order >> 48);
+}
+[[nodiscard]] inline DartId key_of(ForceOrder order) {
+  return DartId{static_cast<std::uint32_t>(order >> 16)};
+}
 
-  [[nodiscard]] std::uint32_t slot(std::uint32_t root, std::uint32_t match) const {
-    return first + root * capacity + match;
-  }
-  [[nodiscard]] std::uint32_t end() const {
-    return slot(static_cast<std::uint32_t>(roles.size()), 0);
-  }
-};
-
-/// For each vertex the slots of the forces on it, in the canonical order: by interaction, by key of
-/// the match, by root. Sums follow this order, so they do not depend on rows, blocks or threads.
+/// For each vertex the slots of the forces on it, in the canonical order. Sums follow this order, so
+/// they do not depend on rows, blocks or threads.
 class ForceSums {
  public:
-  /// `blocks` in the order of their interactions; those of one interaction have different keys.
-  void rebuild(std::span<const ForceBlock> blocks, Row vertices);
+  struct Term {
+    Row vertex = 0;
+    ForceOrder order = 0;
+    SignedSlot slot{};
+  };
+
+  /// `each(visit)` calls visit(term) for all terms, those of one vertex in the canonical order; it is
+  /// called twice.
+  template <typename EachTerm>
+  void rebuild(Row vertices, const EachTerm& each) {
+    lists_.assign(vertices, {});
+    each([&](const Term& term) { ++lists_[term.vertex].capacity; });
+    make_room();
+    each([&](const Term& term) {
+      SlotList& list = lists_[term.vertex];
+      slots_[list.begin + list.count] = term.slot;
+      orders_[list.begin + list.count++] = term.order;
+    });
+  }
   /// Makes room for new vertices, without forces.
   void grow(Row vertices);
-  // Local changes. `before(a, b)` of two slots: does a come first in the canonical order?
-  template <typename Before>
-  void insert(Row vertex, std::uint32_t slot, const Before& before) {
-    const std::span<std::uint32_t> list = with_room(vertex);
-    std::size_t at = list.size() - 1;
-    for (; at > 0 && before(slot, list[at - 1]); --at) list[at] = list[at - 1];
-    list[at] = slot;
-  }
-  void erase(Row vertex, std::uint32_t slot);
-  /// The same force is in another slot now.
-  void rename(Row vertex, std::uint32_t from, std::uint32_t to);
+  void insert(const Term& term);
+  void erase(Row vertex, ForceOrder order);
 
   /// out[v] := sum of the forces on vertex v, for begin <= v < end.
   void sum(const VertexRecord* forces, Row begin, Row end, VertexRecord* out) const;
-  [[nodiscard]] std::span<const std::uint32_t> slots(Row vertex) const {
-    const List& list = lists_[vertex];
-    return {slots_.data() + list.begin, list.count};
+  [[nodiscard]] std::span<const ForceOrder> orders(Row vertex) const {
+    const SlotList& list = lists_[vertex];
+    return {orders_.data() + list.begin, list.count};
   }
   [[nodiscard]] Row vertices() const { return static_cast<Row>(lists_.size()); }
 
  private:
-  using List = SlotList;
-  void append(std::span<const ForceBlock> of_one_interaction);
-  /// The list of a vertex with one entry more, which is the last.
-  std::span<std::uint32_t> with_room(Row vertex);
+  void make_room();
+  void extend(SlotList& list);
 
-  std::vector<List> lists_;  // by vertex row
-  std::vector<std::uint32_t> slots_;
+  std::vector<SlotList> lists_;  // by vertex row
+  std::vector<SignedSlot> slots_;
+  std::vector<ForceOrder> orders_;  // parallel to slots_
 };
 
 }  // namespace gmsim::engine

@@ -16,8 +16,13 @@ const ForceKernel* ShapeKernels::made(Lazy& lazy, Make& make) {
   return lazy.kernel.get();
 }
 
+const ForceKernel& ShapeKernels::force() {
+  if (!force_) force_ = std::make_unique<ForceKernel>(program_);
+  return *force_;
+}
+
 const ForceKernel& ShapeKernels::product() {
-  if (!product_) product_ = std::make_unique<ForceKernel>(product_program(force_.program()));
+  if (!product_) product_ = std::make_unique<ForceKernel>(product_program(program_));
   return *product_;
 }
 
@@ -41,13 +46,24 @@ std::optional<support::Diagnostic> InteractionTables::rebuild() {
   watch_.pack();
   for (std::uint32_t shape = 0; shape < tables_.size(); ++shape)
     repairable_ = repairable_ && finder_.inputs(shape).own_stay_in_orbits();
-  merge_again();
+  merge();
   return std::nullopt;
 }
 
-void InteractionTables::merge_again() {
+void InteractionTables::merge() {
   for (std::size_t shape = 0; shape < tables_.size(); ++shape)
     if (merged_[shape]) merged_[shape]->rebuild(*tables_[shape], context_.state.store);
+}
+
+void InteractionTables::pack() {
+  std::vector<std::vector<std::uint32_t>> rows(tables_.size());
+  for (Place& place : places_) {
+    if (place.shape == kNowhere) continue;
+    rows[place.shape].push_back(place.row);
+    place.row = static_cast<std::uint32_t>(rows[place.shape].size()) - 1;
+  }
+  for (std::size_t shape = 0; shape < tables_.size(); ++shape) tables_[shape]->pack(rows[shape]);
+  merge();
 }
 
 void InteractionTables::add(const ForceMatch& match) {
@@ -105,9 +121,7 @@ DartId InteractionTables::hook(Place place) const {
 
 void InteractionTables::remove(DartId key) {
   const Place place = std::exchange(places_[types::index(key)], Place{});
-  MatchTable& table = *tables_[place.shape];
-  table.remove(place.row);
-  if (place.row < table.size()) places_[types::index(table.key(place.row))].row = place.row;
+  tables_[place.shape]->vacate(place.row);
 }
 
 void InteractionTables::add_shape() {
@@ -122,13 +136,13 @@ void InteractionTables::add_shape() {
   kernels_.push_back(std::make_unique<ShapeKernels>(shape, inputs));
   repairable_ = repairable_ && inputs.own_stay_in_orbits();
   std::optional<MergePlan> plan;
-  if (merge_) plan = plan_merge(shape, kernels_.back()->force().program());
+  if (merge_) plan = plan_merge(shape, kernels_.back()->program());
   merged_.push_back(plan ? std::make_unique<MergedTable>(std::move(*plan)) : nullptr);
 }
 
 std::uint32_t InteractionTables::match_count() const {
   std::uint32_t count = 0;
-  for (const auto& table : tables_) count += table->size();
+  for (const auto& table : tables_) count += table->count();
   return count;
 }
 

@@ -18,9 +18,11 @@ namespace gmsim::engine {
 class ShapeKernels {
  public:
   ShapeKernels(const compile::Shape& shape, const ShapeInputs& inputs)
-      : shape_(shape), inputs_(inputs), force_(force_program(shape, inputs)) {}
+      : shape_(shape), inputs_(inputs), program_(force_program(shape, inputs)) {}
 
-  [[nodiscard]] const ForceKernel& force() const { return force_; }
+  /// Of the forces.
+  [[nodiscard]] const ForceProgram& program() const { return program_; }
+  [[nodiscard]] const ForceKernel& force();
   [[nodiscard]] const ForceKernel& product();
   // Without a root (a shape without energy): null.
   [[nodiscard]] const ForceKernel* energy() { return made(energy_, energy_program); }
@@ -36,8 +38,8 @@ class ShapeKernels {
 
   const compile::Shape& shape_;
   const ShapeInputs& inputs_;
-  ForceKernel force_;
-  std::unique_ptr<ForceKernel> product_;
+  ForceProgram program_;
+  std::unique_ptr<ForceKernel> force_, product_;
   Lazy energy_, direction_;
 };
 
@@ -68,11 +70,11 @@ class InteractionTables {
   std::optional<support::Diagnostic> find_at(DartId dart, std::optional<DartId>& key);
   /// The dart from which a match was found.
   [[nodiscard]] DartId hook(Place place) const;
-  /// Takes a match out; the last one of its table moves into its row.
+  /// Takes a match out.
   void remove(DartId key);
-  /// Makes all merged tables anew.
-  void merge_again();
-
+  /// Brings the matches of all tables into the order of their keys, without vacant rows, and merges
+  /// them again.
+  void pack();
 
   [[nodiscard]] std::uint32_t number() const { return number_; }
   [[nodiscard]] std::size_t shape_count() const { return tables_.size(); }
@@ -100,6 +102,7 @@ class InteractionTables {
 
  private:
   void add(const ForceMatch& match);
+  void merge();
   void add_shape();
   void watch_vertices(const ForceMatch& match);
 

@@ -11,11 +11,8 @@ namespace gmsim::engine {
 
 namespace {
 
-constexpr std::uint32_t kMatchesPerTask = 512;
-constexpr Row kVerticesPerTask = 1024;
-// Room for matches to come, so that a repair seldom has to lay everything out again.
-constexpr std::uint32_t kSpareShare = 8;
-constexpr std::uint32_t kSpare = 16;
+// Chunks of the schedule for each thread: more share the load better, fewer use slots more often.
+constexpr std::uint32_t kChunksPerThread = 4;
 
 }  // namespace
 
@@ -28,9 +25,10 @@ void ThreadProbe::note(double seconds) {
 KernelForces::KernelForces(const State& state, const Model& model, unsigned threads,
                            ForceOptions options)
     : context_(state, model.interactions),
-      threads_(std::max(1u, threads)),
-      scratch_(threads_.count()),
-      failures_(threads_.count()) {
+      main_(interactions_, ForcePass::Matches::Merged),
+      workers_(std::max(1u, threads)) {
+  if (options.atomic)
+    atomic_ = std::make_unique<ForcePass>(interactions_, ForcePass::Matches::Single);
   for (std::uint32_t i = 0; i < context_.active.size(); ++i)
     interactions_.push_back(std::make_unique<InteractionTables>(context_, i, options.merge));
 }
@@ -48,54 +46,13 @@ void KernelForces::refresh(std::span<const DartId> touched) {
 }
 
 void KernelForces::lay_out() {
-  blocks_.clear();
-  jobs_.clear();
-  product_jobs_.clear();
-  first_block_.clear();
-  for (const auto& of : interactions_) {
-    first_block_.push_back(blocks_.size());
-    for (std::uint32_t shape = 0; shape < of->shape_count(); ++shape) add_block(*of, shape);
-  }
-  forces_.resize(blocks_.empty() ? 0 : blocks_.back().end());
-  for (Job& job : jobs_) bind_outputs(job);
-  sums_.rebuild(blocks_, context_.vertices().row_end());
-  add_tasks();
+  const unsigned threads = workers_.threads.count();
+  each_pass([&](ForcePass& pass) {
+    pass.lay_out(context_.vertices().row_end(), threads == 1 ? 1 : kChunksPerThread * threads);
+  });
   const std::span<const Row> rows = context_.vertices().rows();
   vertex_of_.assign(rows.begin(), rows.end());
   stale_ = false;
-}
-
-void KernelForces::add_block(InteractionTables& of, std::uint32_t shape) {
-  const MergedTable* merged = of.merged(shape);
-  const MatchTable& table = merged != nullptr ? merged->table() : of.table(shape);
-  ForceBlock block{.table = &table, .roles = {}, .interaction = of.number(),
-                   .first = blocks_.empty() ? 0 : blocks_.back().end(),
-                   .capacity = table.size() + table.size() / kSpareShare + kSpare};
-  for (std::uint32_t root = 0; root < of.shape(shape).forces.size(); ++root)
-    block.roles.push_back(merged != nullptr ? root : of.shape(shape).forces[root].role);
-  jobs_.push_back({.of = &of, .shape = shape, .table = &table,
-                   .kernel = merged != nullptr ? &merged->kernel() : &of.kernels(shape).force(),
-                   .merged = merged != nullptr, .block = blocks_.size(), .inputs = {},
-                   .outputs = {}});
-  blocks_.push_back(std::move(block));
-}
-
-void KernelForces::add_tasks() {
-  tasks_.clear();
-  for (std::uint32_t job = 0; job < jobs_.size(); ++job) {
-    const std::uint32_t count = jobs_[job].table->size();
-    for (std::uint32_t begin = 0; begin < count; begin += kMatchesPerTask)
-      tasks_.push_back({job, begin, std::min(count, begin + kMatchesPerTask)});
-  }
-}
-
-void KernelForces::bind_outputs(Job& job) {
-  constexpr std::uint32_t kRecord = sizeof(VertexRecord) / sizeof(double);
-  const ForceBlock& block = blocks_[job.block];
-  for (std::uint32_t root = 0; root < block.roles.size(); ++root) {
-    VertexRecord* first = forces_.data() + block.slot(root, 0);
-    job.outputs.push_back({&first->x, kRecord});
-  }
 }
 
 ForceMoment KernelForces::moment(const Motion& motion, double time, double dt) const {
@@ -105,79 +62,48 @@ ForceMoment KernelForces::moment(const Motion& motion, double time, double dt) c
 
 bool KernelForces::evaluate(const Motion& motion, double time, double dt,
                             std::span<VertexRecord> force) {
-  return run(jobs_, moment(motion, time, dt), force);
+  return run(main_, PassKernels::Forces, moment(motion, time, dt), force);
+}
+
+bool KernelForces::evaluate_end(const Motion& motion, double time, double dt,
+                                std::span<VertexRecord> force) {
+  return run(atomic_ ? *atomic_ : main_, PassKernels::Forces, moment(motion, time, dt), force);
 }
 
 bool KernelForces::product(const Motion& motion, double time, std::span<const VertexRecord> dx,
                            std::span<const VertexRecord> dv, std::span<VertexRecord> out) {
-  if (product_jobs_.size() != jobs_.size()) {
-    product_jobs_ = jobs_;
-    for (Job& job : product_jobs_)
-      job.kernel = job.merged ? &job.of->merged(job.shape)->product()
-                              : &job.of->kernels(job.shape).product();
-  }
   ForceMoment now = moment(motion, time, context_.state.dt);
   now.position_change = dx;
   now.velocity_change = dv;
-  return run(product_jobs_, now, out);
+  return run(main_, PassKernels::Products, now, out);
 }
 
-bool KernelForces::run(std::vector<Job>& jobs, const ForceMoment& moment,
+bool KernelForces::run(ForcePass& pass, PassKernels kernels, const ForceMoment& moment,
                        std::span<VertexRecord> out) {
   if (error_) return false;
-  if (threads_.count() == 1) return run_stages(jobs, moment, out, true);
-  if (probe_.decided()) return run_stages(jobs, moment, out, probe_.alone());
+  const gmap::EmbeddingStore& store = context_.state.store;
+  const bool alone = workers_.threads.count() == 1 || probe_.alone();
+  const bool probing = workers_.threads.count() > 1 && !probe_.decided() && &pass == &main_;
   const auto start = std::chrono::steady_clock::now();
-  if (!run_stages(jobs, moment, out, probe_.alone())) return false;
+  if (const auto failure = pass.run(kernels, moment, store, workers_, alone, out))
+    return fail(*failure, kernels, moment);
+  if (!probing) return true;
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
   probe_.note(passed.count());
   return true;
 }
 
-bool KernelForces::run_stages(std::vector<Job>& jobs, const ForceMoment& moment,
-                              std::span<VertexRecord> out, bool alone) {
-  if (!run_tables(jobs, moment, alone)) return false;
-  sum(out, alone);
-  return true;
-}
-
-bool KernelForces::run_tables(std::vector<Job>& jobs, const ForceMoment& moment, bool alone) {
-  for (Job& job : jobs) job.kernel->bind(*job.table, context_.state.store, moment, job.inputs);
-  std::fill(failures_.begin(), failures_.end(), Failure{});
-  threads_.run(static_cast<std::uint32_t>(tasks_.size()), alone,
-               [&](std::uint32_t number, unsigned worker) {
-                 const Task& task = tasks_[number];
-                 const Job& job = jobs[task.job];
-                 const auto match = run_kernel(job.kernel->kernel(), job.inputs, job.outputs,
-                                               task.begin, task.end, scratch_[worker]);
-                 if (match && number < failures_[worker].task)
-                   failures_[worker] = {number, *match};
-               });
-  // The first failed task, whoever ran it, so that the message does not depend on threads.
-  const Failure& first = *std::min_element(
-      failures_.begin(), failures_.end(),
-      [](const Failure& a, const Failure& b) { return a.task < b.task; });
-  if (first.task == Failure{}.task) return true;
-  return fail(jobs[tasks_[first.task].job], first.match, moment);
-}
-
-bool KernelForces::fail(const Job& job, std::uint32_t row, const ForceMoment& moment) {
-  if (!job.merged) return fail(*job.of, job.shape, row, job.kernel->program(), moment);
-  // Said of the first of the merged matches, with the program for single ones.
-  const InteractionTables::Place place = job.of->place(job.table->key(row));
-  const bool forces = moment.position_change.empty();
-  ShapeKernels& kernels = job.of->kernels(job.shape);
-  return fail(*job.of, job.shape, place.row,
-              forces ? kernels.force().program() : kernels.product().program(), moment);
-}
-
-void KernelForces::sum(std::span<VertexRecord> out, bool alone) {
-  const Row vertices = sums_.vertices();
-  const std::uint32_t tasks = (vertices + kVerticesPerTask - 1) / kVerticesPerTask;
-  threads_.run(tasks, alone, [&](std::uint32_t task, unsigned) {
-    const Row begin = task * kVerticesPerTask;
-    sums_.sum(forces_.data(), begin, std::min(vertices, begin + kVerticesPerTask), out.data());
-  });
+bool KernelForces::fail(const ForcePass::Failure& failure, PassKernels kernels,
+                        const ForceMoment& moment) {
+  // Of merged matches it is said of the first.
+  const std::uint32_t row =
+      failure.merged
+          ? failure.of->place(failure.of->merged(failure.shape)->table().key(failure.row)).row
+          : failure.row;
+  ShapeKernels& programs = failure.of->kernels(failure.shape);
+  return fail(*failure.of, failure.shape, row,
+              kernels == PassKernels::Forces ? programs.program() : programs.product().program(),
+              moment);
 }
 
 bool KernelForces::fail(InteractionTables& of, std::uint32_t shape, std::uint32_t row,
@@ -196,8 +122,9 @@ bool KernelForces::run_numbers(InteractionTables& of, std::size_t shape, const F
   std::vector<InputBinding> inputs;
   kernel.bind(table, context_.state.store, moment, inputs);
   const OutputBinding output{values.data(), 1};
-  const auto match = run_kernel(kernel.kernel(), inputs, {&output, 1}, 0, table.size(), scratch_[0]);
-  return !match || fail(of, static_cast<std::uint32_t>(shape), *match, kernel.program(), moment);
+  const auto row = kernel.run(table, inputs, {&output, 1}, 0, table.size(),
+                              workers_.spaces[0].scratch);
+  return !row || fail(of, static_cast<std::uint32_t>(shape), *row, kernel.program(), moment);
 }
 
 bool KernelForces::potential_energy(const Motion& motion, double time, double& energy) {
@@ -241,8 +168,11 @@ std::vector<support::Diagnostic> KernelForces::notices(const Motion& motion, dou
 }
 
 bool KernelForces::reads(InputOrigin::Kind kind) const {
-  return std::any_of(jobs_.begin(), jobs_.end(),
-                     [&](const Job& job) { return job.kernel->program().reads(kind); });
+  bool result = false;
+  main_.each_kernel([&](const ForcePass::KernelAtWork& work) {
+    result = result || work.kernel->program().reads(kind);
+  });
+  return result;
 }
 
 bool KernelForces::reads_time() const {

@@ -10,9 +10,8 @@
 #include "engine/force_bound.h"
 #include "engine/force_context.h"
 #include "engine/force_field.h"
-#include "engine/force_sums.h"
+#include "engine/force_pass.h"
 #include "engine/force_tables.h"
-#include "engine/force_threads.h"
 
 namespace gmsim::engine {
 
@@ -34,14 +33,16 @@ class ThreadProbe {
   double fastest_[2] = {1e30, 1e30};  // s; alone, shared
 };
 
-/// Forces by kernels over match tables: first the forces of all matches, block by block, then their
-/// sums vertex by vertex. Both are shared out among threads.
+/// Forces by kernels over match tables. Where criteria read single forces there are two passes: one
+/// that merges what it can, and one that does not, for the ends of steps.
 class KernelForces final : public ForceField {
  public:
   KernelForces(const State& state, const Model& model, unsigned threads, ForceOptions options);
 
   bool evaluate(const Motion& motion, double time, double dt,
                 std::span<VertexRecord> force) override;
+  bool evaluate_end(const Motion& motion, double time, double dt,
+                    std::span<VertexRecord> force) override;
   bool potential_energy(const Motion& motion, double time, double& energy) override;
   bool product(const Motion& motion, double time, std::span<const VertexRecord> dx,
                std::span<const VertexRecord> dv, std::span<VertexRecord> out) override;
@@ -54,32 +55,13 @@ class KernelForces final : public ForceField {
   void refresh(std::span<const DartId> touched) override;
   [[nodiscard]] const ForceContext* context() const override { return &context_; }
   void list_atomic(std::vector<AtomicForce>& out) const override;
-  [[nodiscard]] std::span<const VertexRecord> atomic_slots() const override { return forces_; }
+  [[nodiscard]] std::span<const VertexRecord> atomic_slots() const override {
+    return atomic_ ? atomic_->slots() : std::span<const VertexRecord>{};
+  }
   [[nodiscard]] const std::optional<support::Diagnostic>& error() const override { return error_; }
   [[nodiscard]] std::string explain() const override;
 
  private:
-  /// One table and the kernel that runs over it.
-  struct Job {
-    InteractionTables* of = nullptr;
-    std::uint32_t shape = 0;
-    const MatchTable* table = nullptr;  ///< of single matches or merged
-    const ForceKernel* kernel = nullptr;
-    bool merged = false;
-    std::size_t block = 0;  ///< index into blocks_
-    std::vector<InputBinding> inputs;
-    std::vector<OutputBinding> outputs;
-  };
-  struct Task {
-    std::uint32_t job = 0;
-    std::uint32_t begin = 0, end = 0;  ///< matches
-  };
-  /// A match whose result is not finite.
-  struct Failure {
-    std::uint32_t task = 0xffffffffu;
-    std::uint32_t match = 0;
-  };
-
   /// What is left to do for one interaction while its matches are repaired.
   struct Repair {
     InteractionTables* of = nullptr;
@@ -89,11 +71,15 @@ class KernelForces final : public ForceField {
   [[nodiscard]] bool reads(InputOrigin::Kind kind) const;
   [[nodiscard]] ForceMoment moment(const Motion& motion, double time, double dt) const;
   bool rebuild();
-  /// Blocks, jobs, tasks and sums for the tables as they are.
   void lay_out();
+  template <typename Change>
+  void each_pass(const Change& change) {
+    change(main_);
+    if (atomic_) change(*atomic_);
+  }
 
   // Repairs where links have changed (kernel_forces_repair.cpp). While `stale_` the tables are right,
-  // but blocks and sums have to be laid out again.
+  // but the passes have to be laid out again.
 
   /// False when an interaction cannot be repaired.
   bool repair(std::span<const DartId> touched);
@@ -107,25 +93,12 @@ class KernelForces final : public ForceField {
   void dissolve(Repair& repair, std::uint32_t shape, std::uint32_t group);
   void dissolve_between(Repair& repair, std::uint32_t shape, std::array<Row, 2> ends);
   void merge_again(Repair& repair);
-  [[nodiscard]] ForceBlock& block_of(const InteractionTables& of, std::uint32_t shape);
-  [[nodiscard]] std::size_t block_at(std::uint32_t slot) const;
-  /// The forces of one row enter or leave the sums.
-  void link(const ForceBlock& block, std::uint32_t row);
-  void unlink(const ForceBlock& block, std::uint32_t row);
-  [[nodiscard]] bool comes_before(std::uint32_t a, std::uint32_t b) const;
-  void add_block(InteractionTables& of, std::uint32_t shape);
-  void add_tasks();
-  void bind_outputs(Job& job);
-  /// Runs jobs over their tables, then sums into `out`.
-  bool run(std::vector<Job>& jobs, const ForceMoment& moment, std::span<VertexRecord> out);
-  bool run_stages(std::vector<Job>& jobs, const ForceMoment& moment, std::span<VertexRecord> out,
-                  bool alone);
-  bool run_tables(std::vector<Job>& jobs, const ForceMoment& moment, bool alone);
-  void sum(std::span<VertexRecord> out, bool alone);
+  bool run(ForcePass& pass, PassKernels kernels, const ForceMoment& moment,
+           std::span<VertexRecord> out);
   /// Numbers that a kernel with one root leaves for each match of a shape, `values` long enough.
   bool run_numbers(InteractionTables& of, std::size_t shape, const ForceKernel& kernel,
                    const ForceMoment& moment, std::vector<double>& values);
-  bool fail(const Job& job, std::uint32_t row, const ForceMoment& moment);
+  bool fail(const ForcePass::Failure& failure, PassKernels kernels, const ForceMoment& moment);
   bool fail(InteractionTables& of, std::uint32_t shape, std::uint32_t row,
             const ForceProgram& program, const ForceMoment& moment);
   /// Adds the matrices of all matches of a shape.
@@ -134,19 +107,14 @@ class KernelForces final : public ForceField {
 
   ForceContext context_;
   std::vector<std::unique_ptr<InteractionTables>> interactions_;
-  std::vector<ForceBlock> blocks_;        // one for each table
-  std::vector<VertexRecord> forces_;      // of all matches, by slot
-  std::vector<Job> jobs_, product_jobs_;  // parallel to blocks_
-  std::vector<Task> tasks_;
-  ForceSums sums_;
-  std::vector<std::size_t> first_block_;  // by interaction
+  ForcePass main_;
+  std::unique_ptr<ForcePass> atomic_;     // null when nobody asks for single forces
   std::vector<Row> vertex_of_;            // by dart, as of the last refresh
   std::vector<Row> changed_;
+  std::vector<std::uint32_t> between_;    // work space
   bool stale_ = false;
   ThreadProbe probe_;
-  ForceThreads threads_;
-  std::vector<KernelScratch> scratch_;    // by worker
-  std::vector<Failure> failures_;         // by worker
+  ForceWorkers workers_;
   std::set<std::pair<std::uint32_t, DartId>> warned_;
   std::optional<support::Diagnostic> error_;
 };

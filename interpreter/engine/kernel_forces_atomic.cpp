@@ -17,21 +17,21 @@ std::vector<double> shares(const compile::Shape& shape) {
 }  // namespace
 
 void KernelForces::list_atomic(std::vector<AtomicForce>& out) const {
-  std::size_t first_block = 0;
+  if (!atomic_) return;
   for (const auto& of : interactions_) {
-    const std::size_t first = first_block;
-    first_block += of->shape_count();
     if (of->body().external) continue;
     std::vector<std::vector<double>> shares_of;
     for (std::size_t shape = 0; shape < of->shape_count(); ++shape)
       shares_of.push_back(shares(of->shape(shape)));
     of->in_order([&](std::uint32_t shape, std::uint32_t row) {
-      const ForceBlock& block = blocks_[first + shape];
       const std::span<const DartId> darts = of->table(shape).targets(row);
       const auto& targets = of->shape(shape).targets;
-      for (std::size_t t = 0; t < targets.size(); ++t)
-        out.push_back({darts[t], targets[t].orbit, of->body().id, block.slot(targets[t].root, row),
-                       shares_of[shape][targets[t].root]});
+      for (std::size_t t = 0; t < targets.size(); ++t) {
+        const SignedSlot slot = atomic_->slot(*of, shape, targets[t].root, row);
+        const double share = shares_of[shape][targets[t].root];
+        out.push_back({darts[t], targets[t].orbit, of->body().id, number_of(slot),
+                       is_negative(slot) ? -share : share});
+      }
     });
   }
 }

@@ -42,23 +42,31 @@ bool KernelForces::add_bounds(InteractionTables& of, std::size_t shape, const Fo
   kernel.bind(table, context_.state.store, moment, inputs);
   std::vector<double> columns(std::size_t{kMatches} * n * n);  // by column, root, match, entry
   std::vector<double> matrix(n * n);
+  KernelScratch& space = workers_.spaces[0].scratch;
+  const std::size_t outputs = kernel.kernel().outputs.size();
+  const auto entry = [&](std::size_t root, std::size_t column, std::uint32_t match, std::size_t axis) {
+    const auto [output, negative] = kernel.root(root);
+    const double value = columns[((column * outputs + output) * kMatches + match) * 3 + axis];
+    return negative ? -value : value;
+  };
   for (std::uint32_t begin = 0; begin < table.size(); begin += kMatches) {
     const std::uint32_t end = std::min(table.size(), begin + kMatches);
     for (std::uint32_t column = 0; column < n; ++column) {
       set_changes(kernel, roots[column / 3].role, column % 3, of_velocity, inputs);
-      std::vector<OutputBinding> outputs;
-      for (std::size_t root = 0; root < roots.size(); ++root) {
+      std::vector<OutputBinding> bindings;
+      for (std::size_t output = 0; output < outputs; ++output) {
         // Outputs are addressed from match 0 on; only this part of the matches is written.
-        double* first = columns.data() + (column * roots.size() + root) * kMatches * 3;
-        outputs.push_back({first - std::ptrdiff_t{3} * begin, 3});
+        double* first = columns.data() + (column * outputs + output) * kMatches * 3;
+        bindings.push_back({first - std::ptrdiff_t{3} * begin, 3});
       }
-      const auto match = run_kernel(kernel.kernel(), inputs, outputs, begin, end, scratch_[0]);
-      if (match) return fail(of, static_cast<std::uint32_t>(shape), *match, kernel.program(), moment);
+      if (const auto row = kernel.run(table, inputs, bindings, begin, end, space))
+        return fail(of, static_cast<std::uint32_t>(shape), *row, kernel.program(), moment);
     }
     for (std::uint32_t row = begin; row < end; ++row) {
+      if (table.vacant(row)) continue;
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
-          matrix[i * n + j] = -columns[((j * roots.size() + i / 3) * kMatches + row - begin) * 3 + i % 3];
+          matrix[i * n + j] = -entry(i / 3, j, row - begin, i % 3);
       bounds.add(of.number(), table.key(row), bounds.stand(of.shape(shape), table.targets(row)),
                  matrix);
     }

@@ -44,7 +44,7 @@ std::string merged_text(const MergedTable& merged, const gmap::EmbeddingSchema& 
   for (const auto& [origin, is_summed] : merged.plan().columns)
     if (is_summed && origin.kind == InputOrigin::Kind::Column)
       summed += (summed.empty() ? "" : ", ") + schema[origin.embedding].name;
-  return fmt::format(", merged to {} ({})", merged.table().size(),
+  return fmt::format(", merged to {} ({})", merged.table().count(),
                      merged.plan().counted ? "equal ones counted" : "adding up " + summed);
 }
 
@@ -64,24 +64,28 @@ std::string KernelForces::explain() const {
       text += fmt::format("    {}\n", parameter_text(of->body().parameters[k], bindings[k], schema));
   }
   text += "tables\n";
-  for (const Job& job : jobs_) {
-    const InteractionTables& of = *job.of;
-    const MatchTable& table = of.table(job.shape);
-    if (table.size() == 0) continue;
-    const compile::Kernel& kernel = job.kernel->kernel();
-    text += fmt::format("  {}: {} matches{}\n", of.body().name, table.size(),
-                        job.merged ? merged_text(*of.merged(job.shape), schema) : "");
-    text += fmt::format("    reads {}\n", gathered_text(of.kernels(job.shape).force().program(), schema));
+  main_.each_kernel([&](const ForcePass::KernelAtWork& work) {
+    const InteractionTables& of = *work.of;
+    const compile::Kernel& kernel = work.kernel->kernel();
+    text += fmt::format("  {}: {} matches{}\n", of.body().name, of.table(work.shape).count(),
+                        work.merged ? merged_text(*of.merged(work.shape), schema) : "");
+    text += fmt::format("    reads {}\n", gathered_text(of.kernels(work.shape).program(), schema));
     text += fmt::format("    {} operations and {} bytes a match, {} instructions, {} forces\n",
                         kernel.operations(), kernel.bytes(), kernel.code.size(),
-                        kernel.outputs.size());
+                        of.shape(work.shape).forces.size());
+  });
+  if (atomic_) {
+    text += "forces of single matches, once a step, for criteria\n";
+    atomic_->each_kernel([&](const ForcePass::KernelAtWork& work) {
+      text += fmt::format("  {}: {} matches\n", work.of->body().name, work.table->count());
+    });
   }
-  text += fmt::format("machine\n  {} threads, instruction set {}\n", threads_.count(),
+  text += fmt::format("machine\n  {} threads, instruction set {}\n", workers_.threads.count(),
                       name_of(preferred_isa()));
-  for (const Job& job : jobs_)
-    if (job.table->size() > 0)
-      text += fmt::format("  {}: blocks of {} matches\n", job.of->body().name,
-                          job.kernel->kernel().block);
+  main_.each_kernel([&](const ForcePass::KernelAtWork& work) {
+    text += fmt::format("  {}: blocks of {} matches\n", work.of->body().name,
+                        work.kernel->kernel().block);
+  });
   return text;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 #include <set>
-#include <tuple>
 
 #include "engine/kernel_forces.h"
 #include "gmap/orbit_walk.h"
@@ -16,16 +15,16 @@ bool KernelForces::repair(std::span<const DartId> touched) {
   for (const auto& of : interactions_)
     if (!of->repairable()) return false;
   find_changed(touched);
-  sums_.grow(context_.vertices().row_end());
+  each_pass([&](ForcePass& pass) { pass.grow(context_.vertices().row_end()); });
   for (const auto& of : interactions_) {
     repair(*of, touched);
     if (error_) return true;
   }
+  each_pass([&](const ForcePass& pass) { stale_ = stale_ || pass.crowded(); });
   if (stale_) {
-    for (const auto& of : interactions_) of->merge_again();
+    for (const auto& of : interactions_) of->pack();
     lay_out();
   } else {
-    add_tasks();
     remember_vertices(touched);
   }
   return true;
@@ -95,11 +94,12 @@ void KernelForces::take_out(Repair& repair, DartId key) {
   const InteractionTables::Place place = of.place(key);
   if (!stale_) {
     const MergedTable* merged = of.merged(place.shape);
-    if (merged == nullptr) {
-      unlink(block_of(of, place.shape), place.row);
-    } else if (const std::uint32_t group = merged->group_of(key); group != gmap::kNoRow) {
-      dissolve(repair, place.shape, group);
-    }
+    if (merged != nullptr)
+      if (const std::uint32_t group = merged->group_of(key); group != gmap::kNoRow)
+        dissolve(repair, place.shape, group);
+    each_pass([&](ForcePass& pass) {
+      if (!pass.merges(of, place.shape)) pass.unlink(of, place.shape, place.row);
+    });
   }
   of.remove(key);
 }
@@ -108,45 +108,42 @@ void KernelForces::put_in(Repair& repair, DartId key) {
   if (stale_) return;
   InteractionTables& of = *repair.of;
   const InteractionTables::Place place = of.place(key);
+  each_pass([&](ForcePass& pass) {
+    if (!pass.merges(of, place.shape)) pass.link(of, place.shape, place.row);
+  });
   const MergedTable* merged = of.merged(place.shape);
-  const ForceBlock& block = block_of(of, place.shape);
-  if (merged != nullptr) {
-    const MatchTable& table = of.table(place.shape);
-    const auto& ends = merged->plan().ends;
-    dissolve_between(repair, place.shape,
-                     {table.rows(ends[0])[place.row], table.rows(ends[1])[place.row]});
-    repair.regroup[place.shape].push_back(key);
-  } else if (block.table->size() > block.capacity) {
-    stale_ = true;
-  } else {
-    link(block, place.row);
-  }
+  if (merged == nullptr) return;
+  const MatchTable& table = of.table(place.shape);
+  const auto& ends = merged->plan().ends;
+  dissolve_between(repair, place.shape,
+                   {table.rows(ends[0])[place.row], table.rows(ends[1])[place.row]});
+  repair.regroup[place.shape].push_back(key);
 }
 
 // ---- merged matches -----------------------------------------------------------------------------
 
 void KernelForces::dissolve(Repair& repair, std::uint32_t shape, std::uint32_t group) {
   MergedTable& merged = *repair.of->merged(shape);
-  unlink(block_of(*repair.of, shape), group);
+  main_.unlink(*repair.of, shape, group);
   merged.members(group, repair.regroup[shape]);
   merged.remove(group);
 }
 
 /// All groups between two vertices, in whatever direction.
 void KernelForces::dissolve_between(Repair& repair, std::uint32_t shape, std::array<Row, 2> ends) {
-  const ForceBlock& block = block_of(*repair.of, shape);
-  const auto is_between = [&](std::uint32_t slot) {
-    if (slot < block.first || slot >= block.end()) return false;
-    const std::uint32_t row = (slot - block.first) % block.capacity;
-    const Row a = block.table->rows(0)[row], b = block.table->rows(1)[row];
-    return (a == ends[0] && b == ends[1]) || (a == ends[1] && b == ends[0]);
-  };
-  while (true) {
-    const std::span<const std::uint32_t> slots = sums_.slots(ends[0]);
-    const auto found = std::find_if(slots.begin(), slots.end(), is_between);
-    if (found == slots.end()) return;
-    dissolve(repair, shape, (*found - block.first) % block.capacity);
+  const InteractionTables& of = *repair.of;
+  const MatchTable& groups = of.merged(shape)->table();
+  between_.clear();
+  for (const ForceOrder order : main_.sums().orders(ends[0])) {
+    const DartId key = key_of(order);
+    if (interaction_of(order) != of.number() || of.place(key).shape != shape) continue;
+    const std::uint32_t group = of.merged(shape)->group_of(key);
+    const Row a = groups.rows(0)[group], b = groups.rows(1)[group];
+    const bool is_between = (a == ends[0] && b == ends[1]) || (a == ends[1] && b == ends[0]);
+    // A spring from a vertex to itself is listed there with both its ends.
+    if (is_between && (between_.empty() || between_.back() != group)) between_.push_back(group);
   }
+  for (const std::uint32_t group : between_) dissolve(repair, shape, group);
 }
 
 void KernelForces::merge_again(Repair& repair) {
@@ -160,52 +157,11 @@ void KernelForces::merge_again(Repair& repair) {
       if (of.place(key).shape == shape) rows.push_back(of.place(key).row);
     if (rows.empty()) continue;
     MergedTable& merged = *of.merged(shape);
-    const ForceBlock& block = block_of(of, shape);
     const std::uint32_t before = merged.table().size();
     merged.group(of.table(shape), context_.state.store, rows);
-    stale_ = merged.table().size() > block.capacity;
-    for (std::uint32_t row = before; row < merged.table().size() && !stale_; ++row) link(block, row);
+    for (std::uint32_t row = before; row < merged.table().size(); ++row)
+      main_.link(of, shape, row);
   }
-}
-
-// ---- sums ---------------------------------------------------------------------------------------
-
-ForceBlock& KernelForces::block_of(const InteractionTables& of, std::uint32_t shape) {
-  return blocks_[first_block_[of.number()] + shape];
-}
-
-std::size_t KernelForces::block_at(std::uint32_t slot) const {
-  const auto after = std::upper_bound(blocks_.begin(), blocks_.end(), slot,
-                                      [](std::uint32_t s, const ForceBlock& b) { return s < b.first; });
-  return static_cast<std::size_t>(after - blocks_.begin()) - 1;
-}
-
-bool KernelForces::comes_before(std::uint32_t a, std::uint32_t b) const {
-  const auto place = [&](std::uint32_t slot) {
-    const ForceBlock& block = blocks_[block_at(slot)];
-    const std::uint32_t within = slot - block.first;
-    return std::tuple{block.interaction, block.table->key(within % block.capacity),
-                      within / block.capacity};
-  };
-  return place(a) < place(b);
-}
-
-void KernelForces::link(const ForceBlock& block, std::uint32_t row) {
-  for (std::uint32_t root = 0; root < block.roles.size(); ++root)
-    sums_.insert(block.table->rows(block.roles[root])[row], block.slot(root, row),
-                 [&](std::uint32_t a, std::uint32_t b) { return comes_before(a, b); });
-}
-
-void KernelForces::unlink(const ForceBlock& block, std::uint32_t row) {
-  const std::uint32_t last = block.table->size() - 1;
-  const auto vertex = [&](std::uint32_t root, std::uint32_t of) {
-    return block.table->rows(block.roles[root])[of];
-  };
-  for (std::uint32_t root = 0; root < block.roles.size(); ++root)
-    sums_.erase(vertex(root, row), block.slot(root, row));
-  if (row == last) return;
-  for (std::uint32_t root = 0; root < block.roles.size(); ++root)  // it moves into this row
-    sums_.rename(vertex(root, last), block.slot(root, last), block.slot(root, row));
 }
 
 }  // namespace gmsim::engine

@@ -48,25 +48,35 @@ std::uint32_t MatchTable::add(DartId key, std::span<const Row> rows, std::span<c
   return size() - 1;
 }
 
+void MatchTable::vacate(std::uint32_t row) {
+  keys_[row] = gmap::kNoDart;
+  ++vacant_;
+}
+
 namespace {
 
-/// Moves the last group of `width` entries onto group `row` and drops it.
+/// Rows of `width` entries each.
 template <typename Entry>
-void take_out(std::vector<Entry>& column, std::uint32_t row, std::uint32_t width) {
+void keep(std::vector<Entry>& column, std::span<const std::uint32_t> rows, std::uint32_t width) {
   if (column.empty()) return;
-  std::copy(column.end() - width, column.end(),
-            column.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * width));
-  column.resize(column.size() - width);
+  std::vector<Entry> kept;
+  kept.reserve(rows.size() * width);
+  for (const std::uint32_t row : rows) {
+    const auto first = column.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * width);
+    kept.insert(kept.end(), first, first + width);
+  }
+  column = std::move(kept);
 }
 
 }  // namespace
 
-void MatchTable::remove(std::uint32_t row) {
-  take_out(keys_, row, 1);
-  for (auto& column : rows_) take_out(column, row, 1);
-  for (std::size_t k = 0; k < own_.size(); ++k) take_out(own_[k], row, widths_.own[k]);
-  take_out(nodes_, row, widths_.nodes);
-  take_out(targets_, row, widths_.targets);
+void MatchTable::pack(std::span<const std::uint32_t> rows) {
+  keep(keys_, rows, 1);
+  for (auto& column : rows_) keep(column, rows, 1);
+  for (std::size_t k = 0; k < own_.size(); ++k) keep(own_[k], rows, widths_.own[k]);
+  keep(nodes_, rows, widths_.nodes);
+  keep(targets_, rows, widths_.targets);
+  vacant_ = 0;
 }
 
 void MatchTable::clear() { *this = MatchTable(widths_); }

@@ -9,8 +9,9 @@
 
 namespace gmsim::engine {
 
-/// All matches of one shape, column by column: what kernels read. Rows are dense and in no order
-/// that matters; the place of a match among the sums is its key.
+/// All matches of one shape, column by column: what kernels read. The order of rows does not matter:
+/// the place of a match among the sums is its key. The row of a match that is taken out stays,
+/// vacant, until the table is packed, so that no other match moves.
 class MatchTable {
  public:
   struct Widths {
@@ -20,7 +21,11 @@ class MatchTable {
   };
   explicit MatchTable(Widths widths);
 
+  /// Rows, vacant ones included.
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(keys_.size()); }
+  /// Matches.
+  [[nodiscard]] std::uint32_t count() const { return size() - vacant_; }
+  [[nodiscard]] bool vacant(std::uint32_t row) const { return keys_[row] == gmap::kNoDart; }
   [[nodiscard]] DartId key(std::uint32_t row) const { return keys_[row]; }
   /// Rows of the orbits of a role, one per match.
   [[nodiscard]] const std::vector<Row>& rows(std::uint32_t role) const { return rows_[role]; }
@@ -44,8 +49,10 @@ class MatchTable {
   std::uint32_t add(const ForceMatch& match);
   /// The same from its columns alone.
   std::uint32_t add(DartId key, std::span<const Row> rows, std::span<const double> own);
-  /// Takes a match out; the last one moves into its row.
-  void remove(std::uint32_t row);
+  /// Takes a match out; its row keeps what stands in it.
+  void vacate(std::uint32_t row);
+  /// Keeps these rows, in this order: row k becomes what `rows[k]` was.
+  void pack(std::span<const std::uint32_t> rows);
   void clear();
   /// What a report needs of a match; the roles hold rows only.
   [[nodiscard]] ForceMatch match(std::uint32_t row, std::uint32_t shape) const;
@@ -54,7 +61,8 @@ class MatchTable {
   void add_own(std::span<const double> numbers);
 
   Widths widths_;
-  std::vector<DartId> keys_;
+  std::uint32_t vacant_ = 0;
+  std::vector<DartId> keys_;             // kNoDart: vacant
   std::vector<std::vector<Row>> rows_;     // by role
   std::vector<std::vector<double>> own_;   // by value, all its doubles match by match
   std::vector<DartId> nodes_, targets_;    // by match

@@ -24,8 +24,7 @@ std::unique_ptr<Simulation> Simulation::create(State& state, Model model,
     diagnostics.report(std::move(*problem));
     return nullptr;
   }
-  // Merged forces are nobody's atomic forces.
-  const ForceOptions force_options{.merge = !criteria_read_forces(state, model)};
+  const ForceOptions force_options{.atomic = criteria_read_forces(state, model)};
   std::unique_ptr<ForceField> forces =
       options.tree_kernel
           ? make_tree_forces(state, model, diagnostics)

@@ -128,7 +128,7 @@ void Simulation::Implementation::load_motion() {
 }
 
 bool Simulation::Implementation::first_forces(support::Diagnostics& diagnostics) {
-  if (!equations_.evaluate_forces(now_.motion, now_.time, dt_ / substeps_, now_.force)) {
+  if (!equations_.evaluate_forces(now_.motion, now_.time, dt_ / substeps_, now_.force, Stage::End)) {
     diagnostics.report(failed_forces(dt_));
     return false;
   }

@@ -122,7 +122,7 @@ bool Simulation::Implementation::choose_first_step(support::Diagnostics& diagnos
     next_.motion.position[r] = now_.motion.position[r] + trial * now_.motion.velocity[r];
     next_.motion.velocity[r] = now_.motion.velocity[r] + trial * acceleration[r];
   }
-  if (!equations_.evaluate(next_.motion, now_.time + trial, trial, next_.force)) {
+  if (!equations_.evaluate(next_.motion, now_.time + trial, trial, next_.force, Stage::Within)) {
     diagnostics.report(failed_forces(trial));
     return false;
   }

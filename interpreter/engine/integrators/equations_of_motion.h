@@ -13,6 +13,9 @@
 
 namespace gmsim::engine {
 
+/// Where forces are evaluated: within a step, or at its end, which is where the next one begins.
+enum class Stage : std::uint8_t { Within, End };
+
 /// Newton's second law for all vertices, and what moves by decree instead. Borrows both.
 class EquationsOfMotion {
  public:
@@ -28,11 +31,13 @@ class EquationsOfMotion {
   /// Prescribed motion starts from here; to be called before the stages of a step.
   void begin_step(const PhasePoint& now) { prescribed_.begin_step(now); }
   /// Puts prescribed vertices where they are at `time`, then evaluates all forces there.
-  bool evaluate(Motion& motion, double time, double dt, std::span<VertexRecord> force);
+  bool evaluate(Motion& motion, double time, double dt, std::span<VertexRecord> force,
+                Stage stage);
   /// Puts prescribed vertices where they are at `time`, with their velocities.
   bool prescribe(double time, Motion& motion) { return prescribed_.apply(time, motion); }
   /// The forces only.
-  bool evaluate_forces(const Motion& motion, double time, double dt, std::span<VertexRecord> force);
+  bool evaluate_forces(const Motion& motion, double time, double dt, std::span<VertexRecord> force,
+                       Stage stage);
 
   [[nodiscard]] bool reads_velocity() const { return field_.reads_velocity(); }
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }

@@ -33,7 +33,7 @@ class RungeKutta final : public Integrator {
     if (!stages(equations, now, dt, std::make_index_sequence<kStages - 1>{})) return false;
     combine<Tableau::kB>(equations, now, dt, next.motion, std::make_index_sequence<kStages>{});
     next.time = now.time + dt;
-    return equations.evaluate(next.motion, next.time, dt, next.force);
+    return equations.evaluate(next.motion, next.time, dt, next.force, Stage::End);
   }
 
   double error_norm(const EquationsOfMotion& equations, const PhasePoint& now,
@@ -103,7 +103,7 @@ class RungeKutta final : public Integrator {
   bool stage(EquationsOfMotion& equations, const PhasePoint& now, double dt) {
     combine<Tableau::kA[S]>(equations, now, dt, trial_, std::make_index_sequence<S>{});
     const double time = now.time + Tableau::kC[S] * dt;
-    if (!equations.evaluate(trial_, time, dt, force_[S - 1])) return false;
+    if (!equations.evaluate(trial_, time, dt, force_[S - 1], Stage::Within)) return false;
     std::swap(trial_.velocity, velocity_[S - 1]);
     rates_[S] = {velocity_[S - 1].data(), force_[S - 1].data()};
     return true;

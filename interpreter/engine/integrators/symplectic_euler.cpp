@@ -25,7 +25,7 @@ class SymplecticEuler final : public Integrator {
       x[r] = x0[r] + dt * v[r];
     }
     next.time = now.time + dt;
-    return equations.evaluate(next.motion, next.time, dt, next.force);
+    return equations.evaluate(next.motion, next.time, dt, next.force, Stage::End);
   }
 
   double growth(double z, double zeta) const override {

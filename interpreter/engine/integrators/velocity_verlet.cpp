@@ -23,10 +23,12 @@ class VelocityVerlet final : public Integrator {
                PhasePoint& next) override {
     drift(equations, now, dt, next);
     next.time = now.time + dt;
-    if (!equations.evaluate(next.motion, next.time, dt, next.force)) return false;
+    const bool again = equations.reads_velocity();
+    if (!equations.evaluate(next.motion, next.time, dt, next.force,
+                            again ? Stage::Within : Stage::End))
+      return false;
     kick(equations, dt, next);
-    if (equations.reads_velocity())
-      return equations.evaluate(next.motion, next.time, dt, next.force);
+    if (again) return equations.evaluate(next.motion, next.time, dt, next.force, Stage::End);
     return equations.prescribe(next.time, next.motion);
   }
 

@@ -35,7 +35,7 @@ inline constexpr std::size_t kKernelOps = 0
 /// The code of each operation for numbers and masks, vec3, sym3, mat3; null where it has none.
 struct OpTable {
   OpKernel code[kKernelOps][4] = {};
-  void (*sum_slots)(const double* records, const SlotList* lists, const std::uint32_t* slots,
+  void (*sum_slots)(const double* records, const SlotList* lists, const SignedSlot* slots,
                     std::uint32_t rows, double* out) = nullptr;
 };
 

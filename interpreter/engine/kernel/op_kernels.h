@@ -47,7 +47,6 @@ OpTable make_table() {
   GMSIM_ALL_TYPES(Gather, gather)
   set(KernelOp::GatherDifference, gather_difference);
   GMSIM_ALL_TYPES(Store, store)
-  set(KernelOp::StoreBoth, store_both);
   set(KernelOp::MulAdd, mul_add);
   set(KernelOp::MulSub, mul_sub);
   set(KernelOp::SubMul, sub_mul);

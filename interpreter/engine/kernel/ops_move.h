@@ -22,14 +22,6 @@ GMSIM_INLINE Record load_record(const double* p) {
 GMSIM_INLINE Record difference(Record a, Record b) {
   return a - b;
 }
-GMSIM_INLINE Record opposite(Record a) {
-  typedef long long RecordBits __attribute__((vector_size(32)));
-  constexpr long long sign = -0x7fffffffffffffff - 1;
-  return Record(RecordBits(a) ^ RecordBits{sign, sign, sign, 0});
-}
-GMSIM_INLINE void store_opposite(double* to, const double* from) {
-  *reinterpret_cast<StoredRecord*>(to) = opposite(load_record(from));
-}
 GMSIM_INLINE void store_columns(double* d, std::size_t row, Record a, Record b, Record c,
                                 Record e) {
   const Record xz0 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
@@ -60,10 +52,6 @@ GMSIM_INLINE Record load_record(const double* p) {
 }
 GMSIM_INLINE Record difference(const Record& a, const Record& b) {
   return {a.xy - b.xy, a.zw - b.zw};
-}
-GMSIM_INLINE void store_opposite(double* to, const double* from) {
-  store(to, -load(from));
-  store(to + 2, V(Bits(load(from + 2)) ^ Bits{-0x7fffffffffffffff - 1, 0}));
 }
 GMSIM_INLINE void store_columns(double* d, std::size_t row, const Record& a, const Record& b,
                                 const Record& c, const Record& e) {
@@ -201,19 +189,4 @@ static void store(const Instruction& in, BlockFrame& f) {
   double* to = out.base + std::size_t(out.stride) * f.begin;
   const bool records = N == 3 && in_records(out.base, out.stride) && from.moving != 0;
   store_any<N>(to, out.stride, from, records ? store_as_records(to, from, f.count) : 0, f.count);
-}
-
-static void store_both(const Instruction& in, BlockFrame& f) {
-  store<3>(in, f);
-  const OutputBinding &plus = f.outputs[in.numbers[0]], &minus = f.outputs[in.numbers[1]];
-  const double* from = plus.base + std::size_t(plus.stride) * f.begin;
-  double* to = minus.base + std::size_t(minus.stride) * f.begin;
-  if (in_records(plus.base, plus.stride) && in_records(minus.base, minus.stride)) {
-    for (std::size_t i = 0; i < 4 * f.count; i += 4) store_opposite(to + i, from + i);
-    return;
-  }
-  for (std::size_t i = 0; i < f.count; ++i) {
-    for (int k = 0; k < 3; ++k) to[minus.stride * i + k] = -from[plus.stride * i + k];
-    if (minus.stride == 4) to[4 * i + 3] = 0.0;
-  }
 }

@@ -3,16 +3,26 @@
 // ops_move.h.
 
 #if GMSIM_VECTOR_BYTES >= 32
-GMSIM_INLINE void add_to(Record& sum, const double* x) {
-  sum += load_record(x);
+alignas(32) static const double kSigns[2][4] = {{0.0, 0.0, 0.0, 0.0}, {-0.0, -0.0, -0.0, -0.0}};
+
+GMSIM_INLINE void add_to(Record& sum, const double* records, SignedSlot slot) {
+  typedef long long RecordBits __attribute__((vector_size(32)));
+  const auto number = static_cast<std::uint32_t>(slot);
+  const Record x = load_record(records + 2 * std::size_t(number & ~1u));
+  sum += Record(RecordBits(x) ^ RecordBits(load_record(kSigns[number & 1])));
 }
 GMSIM_INLINE void store_record(double* to, const Record& x) {
   *reinterpret_cast<StoredRecord*>(to) = x;
 }
 #else
-GMSIM_INLINE void add_to(Record& sum, const double* x) {
-  sum.xy += load(x);
-  sum.zw += load(x + 2);
+alignas(16) static const double kSigns[2][2] = {{0.0, 0.0}, {-0.0, -0.0}};
+
+GMSIM_INLINE void add_to(Record& sum, const double* records, SignedSlot slot) {
+  const auto number = static_cast<std::uint32_t>(slot);
+  const double* x = records + 2 * std::size_t(number & ~1u);
+  const Bits sign = Bits(load(kSigns[number & 1]));
+  sum.xy += V(Bits(load(x)) ^ sign);
+  sum.zw += V(Bits(load(x + 2)) ^ sign);
 }
 GMSIM_INLINE void store_record(double* to, const Record& x) {
   store(to, x.xy);
@@ -20,29 +30,28 @@ GMSIM_INLINE void store_record(double* to, const Record& x) {
 }
 #endif
 
-static void sum_list(const double* records, const SlotList& list, const std::uint32_t* slots,
+static void sum_list(const double* records, const SlotList& list, const SignedSlot* slots,
                      std::uint32_t first, Record sum, double* out) {
-  for (std::uint32_t k = first; k < list.count; ++k)
-    add_to(sum, records + 4 * std::size_t(slots[list.begin + k]));
+  for (std::uint32_t k = first; k < list.count; ++k) add_to(sum, records, slots[list.begin + k]);
   store_record(out, sum);
 }
 
 /// Four rows abreast: the additions of one wait for each other, those of four do not.
-static void sum_slots(const double* records, const SlotList* lists, const std::uint32_t* slots,
+static void sum_slots(const double* records, const SlotList* lists, const SignedSlot* slots,
                       std::uint32_t rows, double* out) {
   std::uint32_t row = 0;
   for (; row + 4 <= rows; row += 4) {
     const SlotList* list = lists + row;
-    const std::uint32_t *s0 = slots + list[0].begin, *s1 = slots + list[1].begin,
-                        *s2 = slots + list[2].begin, *s3 = slots + list[3].begin;
+    const SignedSlot *s0 = slots + list[0].begin, *s1 = slots + list[1].begin,
+                     *s2 = slots + list[2].begin, *s3 = slots + list[3].begin;
     std::uint32_t common = list[0].count;
     for (int i = 1; i < 4; ++i) common = list[i].count < common ? list[i].count : common;
     Record sum0 = {}, sum1 = {}, sum2 = {}, sum3 = {};
     for (std::uint32_t k = 0; k < common; ++k) {
-      add_to(sum0, records + 4 * std::size_t(s0[k]));
-      add_to(sum1, records + 4 * std::size_t(s1[k]));
-      add_to(sum2, records + 4 * std::size_t(s2[k]));
-      add_to(sum3, records + 4 * std::size_t(s3[k]));
+      add_to(sum0, records, s0[k]);
+      add_to(sum1, records, s1[k]);
+      add_to(sum2, records, s2[k]);
+      add_to(sum3, records, s3[k]);
     }
     double* to = out + 4 * std::size_t(row);
     sum_list(records, list[0], slots, common, sum0, to);

@@ -14,9 +14,21 @@ struct SlotList {
   std::uint32_t capacity = 0;
 };
 
-/// out[row] := sum of records[slots[k]] in the order of the row's list, for the rows of `lists`.
-/// Records are 4 doubles at multiples of 32 bytes.
-void sum_records(const double* records, const SlotList* lists, const std::uint32_t* slots,
+/// A slot, and whether its record counts negatively.
+enum class SignedSlot : std::uint32_t {};
+[[nodiscard]] inline SignedSlot signed_slot(std::uint32_t slot, bool negative) {
+  return SignedSlot{slot << 1 | (negative ? 1u : 0u)};
+}
+[[nodiscard]] inline std::uint32_t number_of(SignedSlot slot) {
+  return static_cast<std::uint32_t>(slot) >> 1;
+}
+[[nodiscard]] inline bool is_negative(SignedSlot slot) {
+  return (static_cast<std::uint32_t>(slot) & 1) != 0;
+}
+
+/// out[row] := sum of plus or minus records[slots[k]] in the order of the row's list, for the rows of
+/// `lists`. Records are 4 doubles at multiples of 32 bytes.
+void sum_records(const double* records, const SlotList* lists, const SignedSlot* slots,
                  std::uint32_t rows, double* out, Isa isa = preferred_isa());
 
 }  // namespace gmsim::engine

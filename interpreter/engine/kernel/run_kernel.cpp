@@ -131,7 +131,7 @@ std::optional<std::uint32_t> run_kernel(const Kernel& kernel, std::span<const In
   return std::nullopt;
 }
 
-void sum_records(const double* records, const SlotList* lists, const std::uint32_t* slots,
+void sum_records(const double* records, const SlotList* lists, const SignedSlot* slots,
                  std::uint32_t rows, double* out, Isa isa) {
   table_of(isa).sum_slots(records, lists, slots, rows, out);
 }

@@ -72,7 +72,7 @@ std::pair<double, double> one_step(const std::string& name, double z, double zet
   next.resize(1);
   now.motion.position[0] = {x, 0, 0};
   now.motion.velocity[0] = {v, 0, 0};
-  REQUIRE(equations.evaluate(now.motion, 0, z, now.force));
+  REQUIRE(equations.evaluate(now.motion, 0, z, now.force, engine::Stage::End));
   REQUIRE(method->advance(equations, now, z, next));
   return {next.motion.position[0].x, next.motion.velocity[0].x};
 }

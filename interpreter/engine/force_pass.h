@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/force_schedule.h"
+#include "engine/force_sums.h"
+#include "engine/force_tables.h"
+#include "engine/force_threads.h"
+
+namespace gmsim::engine {
+
+/// A match whose result is not finite.
+struct FailedMatch {
+  std::uint32_t piece = 0xffffffffu;  ///< in the order of the pieces
+  std::uint32_t block = 0, row = 0;
+};
+
+/// Threads, each with work space of its own.
+struct ForceWorkers {
+  struct alignas(64) Space {
+    KernelScratch scratch;
+    std::vector<OutputBinding> outputs;
+    FailedMatch failed;  ///< the first one that this worker met
+  };
+  explicit ForceWorkers(unsigned count) : threads(count), spaces(threads.count()) {}
+  ForceThreads threads;
+  std::vector<Space> spaces;
+};
+
+/// What a pass computes of its matches.
+enum class PassKernels : std::uint8_t { Forces, Products };
+
+/// One way to compute the sums of all forces: the forces of all matches, kernel by kernel, then their
+/// sums vertex by vertex, as the schedule interleaves them. Changes of single matches are followed
+/// without looking at the others, until so much has changed that it is better laid out anew.
+class ForcePass {
+ public:
+  enum class Matches : std::uint8_t {
+    Single,  ///< each by itself; their forces stay to be read
+    Merged   ///< added up first, where matches merge
+  };
+  using Tables = std::vector<std::unique_ptr<InteractionTables>>;
+
+  ForcePass(const Tables& tables, Matches matches) : tables_(tables), matches_(matches) {}
+
+  void lay_out(Row vertices, std::uint32_t chunks);
+  [[nodiscard]] bool merges(const InteractionTables& of, std::uint32_t shape) const {
+    return matches_ == Matches::Merged && of.merged(shape) != nullptr;
+  }
+
+  // Single rows: of the merged table where the pass merges, else of the table of matches.
+  void grow(Row vertices);
+  /// A row that was added at the end of its table.
+  void link(const InteractionTables& of, std::uint32_t shape, std::uint32_t row);
+  /// A row that is going to be vacated.
+  void unlink(const InteractionTables& of, std::uint32_t shape, std::uint32_t row);
+  /// True when it should be laid out anew.
+  [[nodiscard]] bool crowded() const { return crowded_; }
+
+  struct Failure {
+    InteractionTables* of = nullptr;
+    std::uint32_t shape = 0, row = 0;
+    bool merged = false;
+  };
+  /// Sums into `out`. After a result that is not finite: where, the same on any number of threads.
+  std::optional<Failure> run(PassKernels kernels, const ForceMoment& moment,
+                             const gmap::EmbeddingStore& store, ForceWorkers& workers, bool alone,
+                             std::span<VertexRecord> out);
+
+  [[nodiscard]] const ForceSums& sums() const { return sums_; }
+  /// Forces of single matches.
+  [[nodiscard]] std::span<const VertexRecord> slots() const { return forces_; }
+  /// That of force number `force` of a match.
+  [[nodiscard]] SignedSlot slot(const InteractionTables& of, std::uint32_t shape,
+                                std::uint32_t force, std::uint32_t row) const {
+    return blocks_[block_of(of, shape)].slot(force, row);
+  }
+
+  /// What runs over a table.
+  struct KernelAtWork {
+    InteractionTables* of = nullptr;
+    std::uint32_t shape = 0;
+    bool merged = false;
+    const MatchTable* table = nullptr;
+    const ForceKernel* kernel = nullptr;
+  };
+  template <typename Visit>
+  void each_kernel(const Visit& visit) const {
+    for (const Block& block : blocks_)
+      if (block.table->count() > 0) visit(static_cast<const KernelAtWork&>(block));
+  }
+
+ private:
+  /// One table and the kernel that runs over it. Rows from `laid_out` on came later: their slots are
+  /// given when they come, for small pieces at a time.
+  struct Block : KernelAtWork {
+    const ForceKernel* product = nullptr;     ///< when it was asked for
+    const ForceKernel* running = nullptr;     ///< one of them
+    std::vector<std::uint32_t> roles;         ///< vertex of each force
+    std::uint32_t outputs = 0;
+    std::uint32_t laid_out = 0;               ///< rows
+    std::vector<std::uint32_t> first_slots;   ///< of the pieces
+    std::vector<std::uint32_t> late_slots;
+    std::vector<InputBinding> inputs;
+
+    [[nodiscard]] SignedSlot slot(std::uint32_t force, std::uint32_t row) const;
+    [[nodiscard]] ForceOrder order(std::uint32_t force, std::uint32_t row) const {
+      return force_order(of->number(), table->key(row), force);
+    }
+    [[nodiscard]] Row vertex(std::uint32_t force, std::uint32_t row) const {
+      return table->rows(roles[force])[row];
+    }
+  };
+  [[nodiscard]] std::size_t block_of(const InteractionTables& of, std::uint32_t shape) const {
+    return first_block_[of.number()] + shape;
+  }
+  void add_block(InteractionTables& of, std::uint32_t shape);
+  [[nodiscard]] std::vector<ForcePiece> pieces() const;
+  void make_sums(Row vertices);
+  template <typename Visit>
+  void each_term(const Visit& visit) const;
+  void make_late_pieces();
+  void plan_last_sums();
+  void bind(PassKernels kernels, const ForceMoment& moment, const gmap::EmbeddingStore& store);
+  /// `number`: in the order of all pieces, late ones first.
+  bool run_piece(const ForcePiece& piece, std::uint32_t number, ForceWorkers::Space& space);
+  void run_chunk(const ForceChunk& chunk, ForceWorkers::Space& space, VertexRecord* out);
+
+  const Tables& tables_;
+  const Matches matches_;
+  std::vector<Block> blocks_;              // by interaction, by shape
+  std::vector<std::size_t> first_block_;   // by interaction
+  std::vector<VertexRecord> forces_;       // by slot
+  ForceSchedule schedule_;
+  std::vector<RowRange> last_;             // schedule_.last and later vertices, in parts to share
+  std::vector<ForcePiece> late_;           // rows that came after the layout
+  bool late_stale_ = false;
+  std::uint32_t changes_ = 0, room_ = 0;   // rows that came or went, and how many may
+  bool crowded_ = false;
+  ForceSums sums_;
+};
+
+}  // namespace gmsim::engine
