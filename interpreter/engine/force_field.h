@@ -87,6 +87,11 @@ class ForceField {
   /// The forces of single matches on vertices (N), as the last evaluate_end() left them.
   [[nodiscard]] virtual std::span<const VertexRecord> atomic_slots() const { return {}; }
 
+  /// work(context, begin, end) for disjoint ranges that make up the rows 0 … rows-1, on the threads
+  /// that evaluate forces. What is written for a row may depend on nothing that is written for others.
+  using RowWork = void (*)(const void* context, Row begin, Row end);
+  virtual void share_rows(Row rows, RowWork work, const void* context) { work(context, 0, rows); }
+
   /// Takes over changed topology and values; `touched` as in Effects.
   virtual void refresh(std::span<const DartId> touched) = 0;
   [[nodiscard]] virtual const std::optional<support::Diagnostic>& error() const = 0;

@@ -89,6 +89,14 @@ void ForceKernel::bind(const MatchTable& table, const gmap::EmbeddingStore& stor
     bindings.push_back(binding(origin, table, store, moment));
 }
 
+void ForceKernel::bind_again(const MatchTable& table, const gmap::EmbeddingStore& store,
+                             const ForceMoment& moment, std::vector<InputBinding>& bindings) const {
+  using Kind = InputOrigin::Kind;
+  for (std::size_t k = 0; k < origins_.size(); ++k)
+    if (origins_[k].kind != Kind::Column && origins_[k].kind != Kind::Own)
+      bindings[k] = binding(origins_[k], table, store, moment);
+}
+
 std::optional<std::uint32_t> ForceKernel::run(const MatchTable& table,
                                               std::span<const InputBinding> inputs,
                                               std::span<const OutputBinding> outputs,

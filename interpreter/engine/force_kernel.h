@@ -34,6 +34,9 @@ class ForceKernel {
   /// are used.
   void bind(const MatchTable& table, const gmap::EmbeddingStore& store, const ForceMoment& moment,
             std::vector<InputBinding>& bindings) const;
+  /// The same for bindings that were made before, since when table and store have not changed.
+  void bind_again(const MatchTable& table, const gmap::EmbeddingStore& store,
+                  const ForceMoment& moment, std::vector<InputBinding>& bindings) const;
   /// Runs the rows begin … end-1 of a table and gives the first match with a result that is not
   /// finite. What is computed of vacant rows means nothing and may be what it likes.
   std::optional<std::uint32_t> run(const MatchTable& table, std::span<const InputBinding> inputs,

@@ -2,12 +2,13 @@
 #include "engine/force_pass.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gmsim::engine {
 
 namespace {
 
-constexpr std::uint32_t kPiece = 512;      // matches
+constexpr std::uint32_t kPiece = 1024;      // matches
 constexpr std::uint32_t kLatePiece = 64;
 constexpr Row kVerticesPerTask = 1024;
 constexpr std::uint32_t kRecord = sizeof(VertexRecord) / sizeof(double);
@@ -179,9 +180,13 @@ void ForcePass::bind(PassKernels kernels, const ForceMoment& moment,
     if (products && block.product == nullptr)
       block.product = block.merged ? &block.of->merged(block.shape)->product()
                                    : &block.of->kernels(block.shape).product();
-    block.running = products ? block.product : block.kernel;
-    block.running->bind(*block.table, store, moment, block.inputs);
+    const ForceKernel* const before = std::exchange(block.running, products ? block.product : block.kernel);
+    if (before == block.running && !unbound_)
+      block.running->bind_again(*block.table, store, moment, block.inputs);
+    else
+      block.running->bind(*block.table, store, moment, block.inputs);
   }
+  unbound_ = false;
 }
 
 bool ForcePass::run_piece(const ForcePiece& piece, std::uint32_t number,

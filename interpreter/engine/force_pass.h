@@ -48,6 +48,8 @@ class ForcePass {
   ForcePass(const Tables& tables, Matches matches) : tables_(tables), matches_(matches) {}
 
   void lay_out(Row vertices, std::uint32_t chunks);
+  /// Tables or columns may be elsewhere from now on.
+  void unbind() { unbound_ = true; }
   [[nodiscard]] bool merges(const InteractionTables& of, std::uint32_t shape) const {
     return matches_ == Matches::Merged && of.merged(shape) != nullptr;
   }
@@ -141,6 +143,7 @@ class ForcePass {
   bool late_stale_ = false;
   std::uint32_t changes_ = 0, room_ = 0;   // rows that came or went, and how many may
   bool crowded_ = false;
+  bool unbound_ = true;                    // inputs of the blocks
   ForceSums sums_;
 };
 

@@ -13,6 +13,7 @@ namespace {
 
 // Chunks of the schedule for each thread: more share the load better, fewer use slots more often.
 constexpr std::uint32_t kChunksPerThread = 4;
+constexpr Row kRowsPerTask = 4096;
 
 }  // namespace
 
@@ -43,6 +44,7 @@ bool KernelForces::rebuild() {
 
 void KernelForces::refresh(std::span<const DartId> touched) {
   if (touched.empty() || error_ || !repair(touched)) rebuild();
+  each_pass([](ForcePass& pass) { pass.unbind(); });
 }
 
 void KernelForces::lay_out() {
@@ -82,15 +84,21 @@ bool KernelForces::run(ForcePass& pass, PassKernels kernels, const ForceMoment& 
                        std::span<VertexRecord> out) {
   if (error_) return false;
   const gmap::EmbeddingStore& store = context_.state.store;
-  const bool alone = workers_.threads.count() == 1 || probe_.alone();
   const bool probing = workers_.threads.count() > 1 && !probe_.decided() && &pass == &main_;
   const auto start = std::chrono::steady_clock::now();
-  if (const auto failure = pass.run(kernels, moment, store, workers_, alone, out))
+  if (const auto failure = pass.run(kernels, moment, store, workers_, alone(), out))
     return fail(*failure, kernels, moment);
   if (!probing) return true;
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
   probe_.note(passed.count());
   return true;
+}
+
+void KernelForces::share_rows(Row rows, RowWork work, const void* context) {
+  const std::uint32_t tasks = (rows + kRowsPerTask - 1) / kRowsPerTask;
+  workers_.threads.run(tasks, alone(), [&](std::uint32_t task, unsigned) {
+    work(context, task * kRowsPerTask, std::min(rows, (task + 1) * kRowsPerTask));
+  });
 }
 
 bool KernelForces::fail(const ForcePass::Failure& failure, PassKernels kernels,

@@ -52,6 +52,7 @@ class KernelForces final : public ForceField {
     return reads(InputOrigin::Kind::Velocity);
   }
   [[nodiscard]] bool reads_time() const override;
+  void share_rows(Row rows, RowWork work, const void* context) override;
   void refresh(std::span<const DartId> touched) override;
   [[nodiscard]] const ForceContext* context() const override { return &context_; }
   void list_atomic(std::vector<AtomicForce>& out) const override;
@@ -93,6 +94,8 @@ class KernelForces final : public ForceField {
   void dissolve(Repair& repair, std::uint32_t shape, std::uint32_t group);
   void dissolve_between(Repair& repair, std::uint32_t shape, std::array<Row, 2> ends);
   void merge_again(Repair& repair);
+  /// Is one thread to do all of it?
+  [[nodiscard]] bool alone() const { return workers_.threads.count() == 1 || probe_.alone(); }
   bool run(ForcePass& pass, PassKernels kernels, const ForceMoment& moment,
            std::span<VertexRecord> out);
   /// Numbers that a kernel with one root leaves for each match of a shape, `values` long enough.

@@ -39,6 +39,17 @@ class EquationsOfMotion {
   bool evaluate_forces(const Motion& motion, double time, double dt, std::span<VertexRecord> force,
                        Stage stage);
 
+  /// work(begin, end) for ranges of the rows 0 … rows-1, on all threads that evaluate forces.
+  template <typename Work>
+  void for_rows(std::size_t rows, const Work& work) const {
+    field_.share_rows(
+        static_cast<Row>(rows),
+        [](const void* context, Row begin, Row end) {
+          (*static_cast<const Work*>(context))(begin, end);
+        },
+        &work);
+  }
+
   [[nodiscard]] bool reads_velocity() const { return field_.reads_velocity(); }
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
   /// Why the last evaluation failed.

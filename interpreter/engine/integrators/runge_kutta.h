@@ -120,12 +120,14 @@ class RungeKutta final : public Integrator {
     const std::array<Rates, sizeof...(J)> rates = {rates_[J]...};
     VertexRecord* const x = out.position.data();
     VertexRecord* const v = out.velocity.data();
-    for (std::size_t r = 0; r < rows; ++r) {
-      VertexRecord dx, df;
-      (add<Weights[J]>(rates[J], r, dx, df), ...);
-      x[r] = x0[r] + dt * dx;
-      v[r] = v0[r] + dt * inverse_mass[r] * df;
-    }
+    equations.for_rows(rows, [=](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r) {
+        VertexRecord dx, df;
+        (add<Weights[J]>(rates[J], r, dx, df), ...);
+        x[r] = x0[r] + dt * dx;
+        v[r] = v0[r] + dt * inverse_mass[r] * df;
+      }
+    });
   }
   template <double Weight>
   static void add(const Rates& rates, std::size_t row, VertexRecord& dx, VertexRecord& df) {

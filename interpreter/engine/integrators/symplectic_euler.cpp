@@ -20,10 +20,12 @@ class SymplecticEuler final : public Integrator {
     const VertexRecord* const force = now.force.data();
     VertexRecord* const x = next.motion.position.data();
     VertexRecord* const v = next.motion.velocity.data();
-    for (std::size_t r = 0; r < rows; ++r) {
-      v[r] = v0[r] + dt * inverse_mass[r] * force[r];
-      x[r] = x0[r] + dt * v[r];
-    }
+    equations.for_rows(rows, [=](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r) {
+        v[r] = v0[r] + dt * inverse_mass[r] * force[r];
+        x[r] = x0[r] + dt * v[r];
+      }
+    });
     next.time = now.time + dt;
     return equations.evaluate(next.motion, next.time, dt, next.force, Stage::End);
   }

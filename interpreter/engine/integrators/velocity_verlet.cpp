@@ -56,12 +56,14 @@ class VelocityVerlet final : public Integrator {
     VertexRecord* const half = half_.data();
     VertexRecord* const x = next.motion.position.data();
     VertexRecord* const v = next.motion.velocity.data();
-    for (std::size_t r = 0; r < rows; ++r) {
-      const VertexRecord kick = 0.5 * dt * inverse_mass[r] * force[r];
-      half[r] = v0[r] + kick;
-      x[r] = x0[r] + dt * half[r];
-      v[r] = half[r] + kick;
-    }
+    equations.for_rows(rows, [=](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r) {
+        const VertexRecord kick = 0.5 * dt * inverse_mass[r] * force[r];
+        half[r] = v0[r] + kick;
+        x[r] = x0[r] + dt * half[r];
+        v[r] = half[r] + kick;
+      }
+    });
   }
 
   void kick(const EquationsOfMotion& equations, double dt, PhasePoint& next) const {
@@ -70,7 +72,10 @@ class VelocityVerlet final : public Integrator {
     const VertexRecord* const half = half_.data();
     const VertexRecord* const force = next.force.data();
     VertexRecord* const v = next.motion.velocity.data();
-    for (std::size_t r = 0; r < rows; ++r) v[r] = half[r] + 0.5 * dt * inverse_mass[r] * force[r];
+    equations.for_rows(rows, [=](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r)
+        v[r] = half[r] + 0.5 * dt * inverse_mass[r] * force[r];
+    });
   }
 
   std::vector<VertexRecord> half_;  // m/s, in the middle of the step
