@@ -6,16 +6,15 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <string>
 
 #include "bench/bench_timing.h"
+#include "bench/scene_cloth.h"
 #include "bench/yardstick.h"
 #include "engine/kernel/run_kernel.h"
-#include "engine/simulation.h"
-#include "scene/scene.h"
 
 using namespace gmsim;
+using bench::SceneCloth;
 
 namespace {
 
@@ -25,51 +24,6 @@ struct Mesh {
   const char* name;
   const char* scene;
   bench::ClothMesh yardstick;
-};
-
-/// The cloth of a scene file with n by n patches.
-class SceneCloth {
- public:
-  SceneCloth(const std::string& file, std::uint32_t n, double dt, unsigned threads) {
-    scene::SceneOptions options;
-    options.overrides = {fmt::format("bodies.cloth.mesh.grid.patches=[{}, {}]", n, n),
-                         fmt::format("integrator.dt={:.17g}", dt)};
-    scene_ = scene::load_scene(file, options, sources_, diagnostics_);
-    if (scene_)
-      simulation_ = engine::Simulation::create(*scene_->state, scene_->model, scene_->integrator,
-                                               {.threads = threads}, diagnostics_);
-    stop_on_errors();
-  }
-  void step() {
-    if (!simulation_->step(1e9, diagnostics_)) stop_on_errors();
-  }
-  /// Largest distance between its vertices and those of another cloth, as numbered by the scene.
-  double distance(const bench::ClothStepper& other) {
-    simulation_->sync();
-    const auto position = *scene_->program.schema.find("position");
-    double largest = 0;
-    const auto& vertices = scene_->bodies.front().vertices;
-    for (std::uint32_t k = 0; k < vertices.size(); ++k) {
-      const auto here = scene_->state->store.get(position, vertices[k]);
-      const auto there = other.position(k);
-      for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(here[i] - there[i]));
-    }
-    return largest;
-  }
-
- private:
-  void stop_on_errors() {
-    for (const support::Diagnostic& diagnostic : diagnostics_.all())
-      if (diagnostic.severity == support::Severity::Error) {
-        fmt::print("{}\n", diagnostic.message);
-        std::exit(2);
-      }
-  }
-
-  support::SourceMap sources_;
-  support::Diagnostics diagnostics_;
-  std::unique_ptr<scene::Scene> scene_;
-  std::unique_ptr<engine::Simulation> simulation_;
 };
 
 struct Times {

@@ -83,6 +83,29 @@ Records forces_one_by_one(ForceWorld& world, const engine::Model& model) {
 
 }  // namespace
 
+TEST_CASE("any number of threads gives the same bits, merged or not") {
+  // Enough matches for several pieces and chunks.
+  for (const gmap::Mesh& mesh : {gmap::grid(40, 40, 1, 1, gmap::GridCells::Mix4),
+                                 gmap::box({12, 12, 6}, {1, 1, 1}, gmap::BoxElements::Hexes)}) {
+    ForceWorld world(mesh, 5);
+    const engine::Model model = model_of(world.program(), false, any);
+    for (const bool merge : {false, true}) {
+      CAPTURE(merge);
+      const engine::Motion motion = world.motion();
+      const Records alone = evaluate(*kernel_forces(world, model, 1, merge), motion);
+      for (const unsigned threads : {2u, 3u, 5u}) {
+        CAPTURE(threads);
+        const auto forces = kernel_forces(world, model, threads, merge);
+        // The first evaluations are shared and done alone in turn.
+        for (int k = 0; k < 4; ++k) {
+          const Records shared = evaluate(*forces, motion);
+          REQUIRE(std::memcmp(alone.data(), shared.data(), alone.size() * sizeof(VertexRecord)) == 0);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("the oracle adds up what single matches compute") {
   on_all_meshes([](ForceWorld& world, std::uint32_t) {
     const engine::Model model = model_of(world.program(), false, any);
