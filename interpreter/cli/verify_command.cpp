@@ -35,6 +35,7 @@ std::string numbers(std::span<const double> values) {
 /// "0.5 +- 1e-06", "at least 3"
 std::string wanted(const Expectation& expectation) {
   std::vector<std::string> parts;
+  if (expectation.counts_tears) return numbers(expectation.equals);
   if (!expectation.equals.empty())
     parts.push_back(fmt::format("{} +- {:.3g}", numbers(expectation.equals), expectation.within));
   if (expectation.at_least) parts.push_back(fmt::format("at least {:.9g}", *expectation.at_least));
@@ -67,9 +68,10 @@ class VerifyJob {
     const InterruptWatch watch;
     bool going = evaluate_due();
     while (going && next_time() < kNever) {
-      going = simulation_->step(std::min(next_time(), next_stop(*scene_, simulation_->time())),
-                                session_.diagnostics) &&
-              evaluate_due();
+      const auto step = simulation_->step(
+          std::min(next_time(), next_stop(*scene_, simulation_->time())), session_.diagnostics);
+      if (step) tears_ += step->events.size();
+      going = step && evaluate_due();
       if (watch.interrupted()) return interrupted();
     }
     session_.finish();
@@ -116,6 +118,11 @@ class VerifyJob {
 
   bool evaluate(engine::TreeEvaluator& evaluator, Verdict& verdict) {
     const Expectation& about = *verdict.expectation;
+    if (about.counts_tears) {
+      verdict.value = {static_cast<double>(tears_)};
+      judge(verdict);
+      return true;
+    }
     engine::Frame frame(about.value.frame_size);
     frame.set(about.value.dart, about.dart);
     verdict.value.resize(types::component_count(about.value.value->type));
@@ -195,6 +202,7 @@ class VerifyJob {
   std::unique_ptr<scene::Scene> scene_;
   std::unique_ptr<engine::Simulation> simulation_;
   std::vector<Verdict> verdicts_;
+  std::uint64_t tears_ = 0;  ///< changes of `tear` so far
 };
 
 }  // namespace

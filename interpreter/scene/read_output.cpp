@@ -80,10 +80,32 @@ class ExpectationReader {
     read_point(point);
     read_time(expectation);
     const YamlNode* value = section_.find("value");
-    if (value == nullptr) return false;
-    const SceneExpression expression = context_.expression(*value, {});
+    const YamlNode* tears = section_.find("tears");
+    if ((value == nullptr) == (tears == nullptr))
+      return refuse(DiagnosticKind::MissingKey, section_.span,
+                    value ? "this expects two things" : "this does not say what is compared",
+                    "give either `value`, an expression, or `tears`, their number");
+    return tears ? read_tears(*tears, expectation) : read_value(*value, expectation);
+  }
+
+ private:
+  bool read_tears(const YamlNode& tears, Expectation& expectation) {
+    for (const char* key : {"equals", "within", "at_least", "at_most", "body", "point"})
+      if (const YamlNode* other = section_.find(key))
+        return refuse(DiagnosticKind::UnknownKey, other->span,
+                      fmt::format("`tears` takes no `{}`", key),
+                      "the number behind `tears` is what must come out");
+    expectation.counts_tears = true;
+    expectation.text = "tears";
+    expectation.span = tears.span;
+    expectation.equals = {static_cast<double>(context_.integer(tears))};
+    return true;
+  }
+
+  bool read_value(const YamlNode& value, Expectation& expectation) {
+    const SceneExpression expression = context_.expression(value, {});
     if (!storable(expression, context_)) return false;
-    expectation.span = value->span;
+    expectation.span = value.span;
     expectation.text = expression.text;
     expectation.value = expression.code;
     const std::size_t components = component_count(expression);
@@ -92,7 +114,6 @@ class ExpectationReader {
     return read_bounds(expectation, components);
   }
 
- private:
   /// 1 or 3; 0 (reported) for other types.
   std::size_t component_count(const SceneExpression& expression) {
     const types::ValueType& type = expression.code.value->type;

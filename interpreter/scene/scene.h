@@ -42,8 +42,9 @@ struct OutputPlan {
 /// A value that `gmsim verify` compares after (or during) the run:
 /// `{ value: EXPR, at: end | TIME, equals: NUMBER | [x, y, z], within: NUMBER }`, or with
 /// `at_least`, `at_most` in place of `equals`. `point: N` (and `body: NAME` if there are several)
-/// says at which point of the mesh a value such as `position` is meant.
+/// says at which point of the mesh a value such as `position` is meant. Or `{ tears: NUMBER, at }`.
 struct Expectation {
+  bool counts_tears = false;      ///< the changes that `tear` has made are compared, not `value`
   engine::DartExpression value;   ///< real or vec3
   gmap::DartId dart = gmap::kNoDart;  ///< of the point; of the body's first where none is named
   std::string text;
