@@ -21,7 +21,8 @@ constexpr std::int64_t kNodeBudget = 2'000'000;
 /// (DimensionChecker::passes), report.
 class RuleChecker {
  public:
-  static CheckedRules run(LoadedRules loaded, const LibraryOptions& options,
+  /// `own`: there are rules beside the library's.
+  static CheckedRules run(LoadedRules loaded, bool own, const LibraryOptions& options,
                           const support::SourceMap& sources, support::Diagnostics& diagnostics) {
     CheckedRules rules;
     rules.checking_ = std::make_shared<Checking>(loaded, diagnostics);
@@ -37,7 +38,7 @@ class RuleChecker {
       env.names_missing = loaded.broken;
       env.keep_rejected = options.keep_rejected;
       env.node_budget = kNodeBudget;
-      DimensionChecker(env, loaded, sources).run();
+      if (own || is_wanted(d, options)) DimensionChecker(env, loaded, sources).run();
       list_definitions(env);
       rules.libraries_[static_cast<std::size_t>(d - 1)] = std::move(library);
     }
@@ -49,6 +50,11 @@ class RuleChecker {
   static Checking& checking(const CheckedRules& rules) { return *rules.checking_; }
 
  private:
+  static bool is_wanted(int dimension, const LibraryOptions& options) {
+    if (!options.stdlib_folder.empty()) return true;  // not known to be right
+    return options.dimension == 0 || options.dimension == dimension;
+  }
+
   /// Functions and patterns for lists: their bodies are gone from checked rules.
   static void list_definitions(Environment& env) {
     for (ItemIndex i = 0; i < env.states.size(); ++i) {
@@ -78,14 +84,14 @@ std::string CheckedRules::why_absent(const std::string& item, int dimension) con
 CheckedRules check_rules(const std::vector<std::filesystem::path>& files,
                          const LibraryOptions& options, support::SourceMap& sources,
                          support::Diagnostics& diagnostics) {
-  return RuleChecker::run(load_rules(files, {}, options, sources, diagnostics), options, sources,
-                          diagnostics);
+  return RuleChecker::run(load_rules(files, {}, options, sources, diagnostics), !files.empty(),
+                          options, sources, diagnostics);
 }
 
 CheckedRules check_texts(const std::vector<support::FileId>& texts, const LibraryOptions& options,
                          support::SourceMap& sources, support::Diagnostics& diagnostics) {
-  return RuleChecker::run(load_rules({}, texts, options, sources, diagnostics), options, sources,
-                          diagnostics);
+  return RuleChecker::run(load_rules({}, texts, options, sources, diagnostics), !texts.empty(),
+                          options, sources, diagnostics);
 }
 
 Checking& checking_of(const CheckedRules& rules) { return RuleChecker::checking(rules); }

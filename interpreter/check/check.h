@@ -22,6 +22,9 @@ struct LibraryOptions {
   /// The library's files to bring in; empty: all of them.
   std::vector<std::string> modules = {};
   bool with_stdlib = true;
+  /// The only dimension whose rules will be asked for; 0: any. What users write is checked in all of
+  /// them nevertheless; without such files the other dimensions stay empty.
+  int dimension = 0;
   /// Rules that make sense but are rejected for what they do to maps or values stay in the result,
   /// to show what they do. They are reported all the same.
   bool keep_rejected = false;

@@ -181,7 +181,7 @@ class RewriteCompiler {
     if (touched.empty()) return std::nullopt;
     std::vector<std::uint32_t> joined = joined_positions(rule_.right, member, type);
     if (preserved && keeps_orbits(member, *preserved, joined, type)) {
-      return OrbitClass{OrbitClass::Fate::Kept, std::move(created), *preserved};
+      return OrbitClass{OrbitClass::Fate::Kept, std::move(created), *preserved, std::move(joined)};
     }
     if (!is_whole(member, type)) return OrbitClass{OrbitClass::Fate::Open, std::move(touched), 0};
     return OrbitClass{OrbitClass::Fate::Whole, std::move(all), 0, std::move(joined)};

@@ -21,19 +21,21 @@ double* Arena::allocate(std::size_t count) {
 }
 
 void Frame::reset(std::uint32_t slots) {
-  cells_.assign(slots, Cell{});
+  for (const types::Slot slot : used_) cell(slot) = Cell{};
+  used_.clear();
+  if (cells_.size() < slots) cells_.resize(slots);
   if (!collections_.empty()) collections_.clear();
   arena_.release({});
 }
 
 void Frame::set(types::Slot slot, types::DartId dart) {
-  Cell& target = cell(slot);
+  Cell& target = use(slot);
   target.kind = Kind::Dart;
   target.dart = dart;
 }
 
 void Frame::set(types::Slot slot, std::span<const double> numbers) {
-  Cell& target = cell(slot);
+  Cell& target = use(slot);
   if (target.numbers == nullptr || target.count != numbers.size()) {
     target.numbers = arena_.allocate(numbers.size());
     target.count = static_cast<std::uint32_t>(numbers.size());
@@ -43,7 +45,7 @@ void Frame::set(types::Slot slot, std::span<const double> numbers) {
 }
 
 void Frame::set(types::Slot slot, std::vector<types::DartId> darts) {
-  Cell& target = cell(slot);
+  Cell& target = use(slot);
   if (target.darts == nullptr) target.darts = &collections_.emplace_back();
   target.kind = Kind::Darts;
   *target.darts = std::move(darts);

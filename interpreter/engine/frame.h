@@ -73,7 +73,15 @@ class Frame {
   [[nodiscard]] const Cell& cell(types::Slot slot) const { return cells_[types::index(slot)]; }
   [[nodiscard]] Cell& cell(types::Slot slot) { return cells_[types::index(slot)]; }
 
+  /// The cell of a slot that is given a value until the next reset.
+  [[nodiscard]] Cell& use(types::Slot slot) {
+    Cell& target = cell(slot);
+    if (target.kind == Kind::Empty) used_.push_back(slot);
+    return target;
+  }
+
   std::vector<Cell> cells_;
+  std::vector<types::Slot> used_;  // with a value
   std::deque<std::vector<types::DartId>> collections_;
   Arena arena_;
 };

@@ -150,33 +150,84 @@ std::uint32_t Matcher::add_row(const Plan& plan, Match& out) const {
 }
 
 bool Matcher::grow_linear(const Plan& plan, Match& out) {
-  bool closed = false;
-  for (std::uint32_t position = 0; position < plan.positions && !closed; ++position) {
-    if (!walk_linear(plan, position, out, closed)) return false;
+  list_path(plan, out);
+  const Column hook = plan.hooks.front();
+  for (std::uint32_t row = 0; row < out.rows; ++row) {
+    out.darts[std::size_t{row} * out.width + hook] = images_[row];
+  }
+  for (std::size_t k = 1; k < plan.hooks.size(); ++k) {
+    if (!follow_path(plan, plan.hooks[k], out)) return fail(Reason::HookLabels);
   }
   return true;
 }
 
-bool Matcher::walk_linear(const Plan& plan, std::uint32_t position, Match& out, bool& closed) {
+/// Walks from the first hook along position 0, then 1, and so on; unless that closes, from there
+/// along position 1 as well. Its darts go into `images_`, the rows into `out`.
+void Matcher::list_path(const Plan& plan, Match& out) {
   const Column hook = plan.hooks.front();
-  const DartId begin = out.dart(0, hook);
-  std::uint32_t row = 0;
-  while (true) {
-    lead(plan, out, row, position);
-    std::uint32_t next = row;
-    if (images_.front() == begin && row != 0) {
-      next = 0;
-      closed = plan.positions == 2;
-    } else if (images_.front() != out.dart(row, hook)) {
-      next = add_row(plan, out);
-    }
-    if (!images_are(plan, out, next)) return fail(Reason::HookLabels);
-    out.next[std::size_t{row} * out.positions + position] = next;
-    out.next[std::size_t{next} * out.positions + position] = row;
-    if (next == row || next == 0 || plan.positions == 1) return true;
-    row = next;
-    position = 1 - position;
+  const DartId begin = out.darts[hook];
+  const DartId* alpha[2];
+  for (std::uint32_t p = 0; p < plan.positions; ++p) {
+    alpha[p] = state_.map.alphas(plan.nodes[hook].label[p]).data();
   }
+  images_.assign(1, begin);
+  if (plan.positions == 1) {
+    const DartId end = alpha[0][types::index(begin)];
+    if (end != begin) images_.push_back(end);
+    make_rows(out);
+    out.next.front() = out.rows - 1;  // back from there the row is 0
+    return;
+  }
+  const auto walk = [&](std::uint32_t position) {
+    for (DartId d = begin;; position = 1 - position) {
+      const DartId to = alpha[position][types::index(d)];
+      if (to == d) return false;
+      if (to == begin) return true;
+      images_.push_back(d = to);
+    }
+  };
+  const bool closed = walk(0);
+  const auto first = static_cast<std::uint32_t>(images_.size());
+  if (!closed) walk(1);
+  make_rows(out);
+  std::uint32_t* const next = out.next.data();
+  const auto chain = [&](std::uint32_t row, std::uint32_t position, std::uint32_t end) {
+    for (std::uint32_t last = 0; row < end; last = row++, position = 1 - position) {
+      next[2 * last + position] = row;
+      next[2 * row + position] = last;
+    }
+  };
+  const auto end_row = [&](std::uint32_t row, std::uint32_t position, std::uint32_t to) {
+    next[2 * row + position] = to;
+    next[2 * to + position] = row;
+  };
+  chain(1, 0, first);
+  end_row(first - 1, (first - 1) % 2, closed ? 0 : first - 1);
+  if (closed) return;
+  chain(first, 1, out.rows);
+  const std::uint32_t last = out.rows == first ? 0 : out.rows - 1;
+  end_row(last, (out.rows - first + 1) % 2, last);
+}
+
+/// A row for each of the images, whose darts and neighbours are still to come.
+void Matcher::make_rows(Match& out) const {
+  out.rows = static_cast<std::uint32_t>(images_.size());
+  out.darts.resize(std::size_t{out.rows} * out.width, types::kNoDart);
+  out.next.resize(std::size_t{out.rows} * out.positions, 0);
+}
+
+/// Gives the rows the darts of another hook, in whose orbit they must be joined in the same way.
+bool Matcher::follow_path(const Plan& plan, Column hook, Match& out) const {
+  for (std::uint32_t row = 0; row < out.rows; ++row) {
+    for (std::uint32_t position = 0; position < plan.positions; ++position) {
+      const DartId image =
+          state_.map.alpha(plan.nodes[hook].label[position], out.dart(row, hook));
+      DartId& to = out.darts[std::size_t{out.next_row(row, position)} * out.width + hook];
+      if (to == types::kNoDart) to = image;
+      if (to != image) return false;
+    }
+  }
+  return true;
 }
 
 bool Matcher::grow_breadth_first(const Plan& plan, Match& out) {

@@ -81,7 +81,9 @@ class Matcher {
   bool judge(const Plan& plan, std::uint32_t links, std::uint32_t& next, Frame& frame);
   /// Rows of labels of one or two positions: a path or a cycle, walked from row 0 both ways.
   bool grow_linear(const Plan& plan, Match& out);
-  bool walk_linear(const Plan& plan, std::uint32_t position, Match& out, bool& closed);
+  void list_path(const Plan& plan, Match& out);
+  void make_rows(Match& out) const;
+  bool follow_path(const Plan& plan, compile::Column hook, Match& out) const;
   bool grow_breadth_first(const Plan& plan, Match& out);
   /// Where the hooks of a row lead along a position, into `images_`.
   void lead(const Plan& plan, const Match& match, std::uint32_t row, std::uint32_t position);

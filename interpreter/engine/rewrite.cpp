@@ -175,7 +175,10 @@ bool Rewriter::Implementation::match(const compile::Rule& rule, std::span<const 
          outcome);
     return false;
   }
-  if (matcher.match(rule.match, hooks, frame_, match_)) return true;
+  if (matcher.match(rule.match, hooks, frame_, match_)) {
+    row_plan_ = &row_plans_.find(rule, match_);
+    return true;
+  }
   outcome.failure = matcher.failure();
   outcome.status = Status::NotMatched;
   if (outcome.failure.reason == MatchFailure::Reason::Error) {
@@ -193,7 +196,8 @@ void Rewriter::Implementation::apply(const compile::Rule& rule, std::span<const 
   const bool alone = !recording_;
   if (alone && may_fail(rule)) begin();
   changed_.clear();
-  effects_.clear();
+  effects_ = &outcome.effects;
+  const Counts before = count_effects();
   change_links(rule.rewrite);
   // Orbits of what is no map cannot be walked.
   Diagnostic error = options_.validate ? report_broken(gmap::validate(state.map)) : std::nullopt;
@@ -202,15 +206,31 @@ void Rewriter::Implementation::apply(const compile::Rule& rule, std::span<const 
   if (!error && options_.validate) error = report_broken(gmap::validate(state.map, state.store));
   if (error) {
     GMSIM_CHECK(recording_, "a rule failed that cannot: " + error->message);
+    forget_effects(before);
     // Within begin() … commit() the caller undoes everything.
     if (alone) roll_back();
     return fail(rule, std::move(*error), outcome);
   }
   if (alone && recording_) commit();
-  effects_.applications = 1;
-  effects_.matched_rows = match_.rows;
+  ++effects_->applications;
+  effects_->matched_rows += match_.rows;
   outcome.status = Status::Applied;
-  outcome.effects.append(effects_);
+}
+
+Rewriter::Implementation::Counts Rewriter::Implementation::count_effects() const {
+  return {effects_->touched.size(), effects_->created_darts, effects_->removed_darts,
+          effects_->written_values};
+}
+
+/// Takes back what the effects say of the rewrite at hand.
+void Rewriter::Implementation::forget_effects(const Counts& before) {
+  effects_->touched.resize(before.touched);
+  effects_->created_darts = before.created_darts;
+  effects_->removed_darts = before.removed_darts;
+  effects_->written_values = before.written_values;
+  for (const ChangedOrbits& changed : changed_) {
+    changed.forget(effects_->repair(changed.index->type()));
+  }
 }
 
 /// Recording for a roll-back costs a fifth of the time, so it is left out where nothing can fail.
@@ -224,7 +244,7 @@ std::optional<support::Diagnostic> Rewriter::Implementation::store_values(
     const auto [row, column] = assigned_cells_[i];
     assigned_[i].dart = match_.dart(row, column);
   }
-  Diagnostic error = spreader_.run(changed_, assigned_, numbers_, rule, journal(), effects_);
+  Diagnostic error = spreader_.run(changed_, assigned_, numbers_, rule, journal(), *effects_);
   return error ? std::move(error) : announce_created();
 }
 
@@ -236,7 +256,7 @@ std::optional<support::Diagnostic> Rewriter::Implementation::announce_created() 
       if (decl.role != gmap::EmbeddingRole::Presence || decl.orbit != changed.index->type()) {
         continue;
       }
-      for (const gmap::OrbitChange& orbit : changed.repair->orbits) {
+      for (const gmap::OrbitChange& orbit : changed.orbits()) {
         if (orbit.sources_count > 0) continue;
         if (Diagnostic error = on_created(self_, id, orbit.smallest)) return error;
       }

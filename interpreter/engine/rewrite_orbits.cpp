@@ -10,7 +10,6 @@ namespace gmsim::engine {
 
 using compile::ColumnChange;
 using compile::NodeFate;
-using compile::OrbitClass;
 using compile::OrbitClasses;
 using gmap::OrbitChange;
 using gmap::OrbitIndex;
@@ -22,17 +21,20 @@ void Rewriter::Implementation::repair_orbits(const compile::RewritePlan& plan) {
     OrbitIndex& index = *entry;
     const OrbitClasses* classes = plan.find_orbits(index.type());
     if (classes != nullptr ? classes->classes.empty() : !plan.affects(index.type())) continue;
-    changed_.push_back({&index, nullptr});
-    OrbitRepair& repair = effects_.repair(index.type());
+    OrbitRepair& repair = effects_->repair(index.type());
+    changed_.emplace_back(index, repair);
+    repair.swap_space(repair_space_);
     if (classes != nullptr) {
-      follow_classes(*classes, index, repair);
+      const auto number = static_cast<std::size_t>(classes - plan.orbits.data());
+      follow_classes(row_plan_->orbits[number], index, repair);
     } else {
       list_touched(plan, index.type());
       index.repair(state.map, touched_, repair, journal());
     }
+    repair.swap_space(repair_space_);
   }
   // Only now, because a new entry moves the others.
-  for (ChangedOrbits& changed : changed_) changed.repair = effects_.find(changed.index->type());
+  for (ChangedOrbits& changed : changed_) changed.repair = effects_->find(changed.index->type());
 }
 
 void Rewriter::Implementation::list_touched(const compile::RewritePlan& plan, OrbitType type) {
@@ -45,83 +47,51 @@ void Rewriter::Implementation::list_touched(const compile::RewritePlan& plan, Or
   }
 }
 
-void Rewriter::Implementation::follow_classes(const OrbitClasses& classes, OrbitIndex& index,
+void Rewriter::Implementation::follow_classes(const RowPlan::Orbits& orbits, OrbitIndex& index,
                                               OrbitRepair& repair) {
-  touched_.clear();
-  whole_.clear();
-  whole_ends_.clear();
-  bool some_kept = false;
-  for (const OrbitClass& orbits : classes.classes) {
-    switch (orbits.fate) {
-      case OrbitClass::Fate::Kept:
-        some_kept = true;
-        break;
-      case OrbitClass::Fate::Whole:
-        list_whole(orbits);
-        break;
-      case OrbitClass::Fate::Open:
-        for (std::uint32_t row = 0; row < match_.rows; ++row) {
-          for (const compile::Column column : orbits.columns) {
-            touched_.push_back(match_.dart(row, column));
-          }
-        }
-    }
-  }
-  index.repair(state.map, touched_, {whole_, whole_ends_}, repair, journal());
-  if (!some_kept) return;
+  const std::size_t first = repair.orbits.size();
+  const std::span<const DartId> touched = gather(orbits.open, touched_);
+  const std::span<const DartId> whole = gather(orbits.whole, whole_);
+  index.repair(state.map, touched, {whole, orbits.whole_ends}, repair, journal());
+  if (orbits.kept.empty()) return;
+  enter_kept(orbits, index);
+  repair.visited_darts += orbits.kept_visits;
+  publish_kept(index, first, repair);
+}
+
+void Rewriter::Implementation::enter_kept(const RowPlan::Orbits& orbits, OrbitIndex& index) {
   index.grow(state.map, journal());
+  const DartId* const darts = match_.darts.data();
+  for (const RowPlan::Link link : orbits.entered) {
+    index.add_dart(darts[link.from], index.row(darts[link.to]), journal());
+  }
   kept_rows_.clear();
-  for (const OrbitClass& orbits : classes.classes) {
-    if (orbits.fate == OrbitClass::Fate::Kept) enter_kept(orbits, index, repair);
-  }
-  publish_kept(index, repair);
-}
-
-void Rewriter::Implementation::list_whole(const OrbitClass& orbits) {
-  row_seen_.assign(match_.rows, 0);
-  for (std::uint32_t row = 0; row < match_.rows; ++row) {
-    if (row_seen_[row] != 0) continue;
-    walk_rows(row, orbits.joined);
-    for (const std::uint32_t member : row_queue_) {
-      for (const compile::Column column : orbits.columns) {
-        whole_.push_back(match_.dart(member, column));
-      }
-    }
-    whole_ends_.push_back(static_cast<std::uint32_t>(whole_.size()));
-  }
-}
-
-void Rewriter::Implementation::enter_kept(const OrbitClass& orbits, OrbitIndex& index,
-                                          OrbitRepair& repair) {
-  for (std::uint32_t row = 0; row < match_.rows; ++row) {
-    const Row orbit = index.row(match_.dart(row, orbits.kept));
-    if (kept_rows_.empty() || kept_rows_.back() != orbit) kept_rows_.push_back(orbit);
-    for (const compile::Column column : orbits.columns) {
-      index.add_dart(match_.dart(row, column), orbit, journal());
-    }
-  }
-  repair.visited_darts += std::uint64_t{match_.rows} * (orbits.columns.size() + 1);
-}
-
-/// Kept orbits take their place among the repaired ones; those that a repair met are there already.
-void Rewriter::Implementation::publish_kept(const OrbitIndex& index, OrbitRepair& repair) {
-  const std::size_t repaired = repair.orbits.size();
+  for (const RowPlan::Place place : orbits.kept) kept_rows_.push_back(index.row(darts[place]));
   std::sort(kept_rows_.begin(), kept_rows_.end());
   kept_rows_.erase(std::unique(kept_rows_.begin(), kept_rows_.end()), kept_rows_.end());
+}
+
+/// Kept orbits take their place among those from number `first` on, which were repaired; those that
+/// a repair met are there already.
+void Rewriter::Implementation::publish_kept(const OrbitIndex& index, std::size_t first,
+                                            OrbitRepair& repair) {
+  const std::size_t repaired = repair.orbits.size();
   const auto before = [](const OrbitChange& a, const OrbitChange& b) {
     return a.smallest < b.smallest;
+  };
+  const auto at = [&](std::size_t k) {
+    return repair.orbits.begin() + static_cast<std::ptrdiff_t>(k);
   };
   for (const Row row : kept_rows_) {
     const OrbitChange orbit{row, index.smallest(row),
                             static_cast<std::uint32_t>(repair.sources.size()), 1};
-    const auto end = repair.orbits.begin() + static_cast<std::ptrdiff_t>(repaired);
-    const auto place = std::lower_bound(repair.orbits.begin(), end, orbit, before);
-    if (place != end && place->row == row) continue;
+    const auto place = std::lower_bound(at(first), at(repaired), orbit, before);
+    if (place != at(repaired) && place->row == row) continue;
     repair.orbits.push_back(orbit);
     repair.sources.push_back(row);
   }
-  if (repair.orbits.size() > repaired) {
-    std::sort(repair.orbits.begin(), repair.orbits.end(), before);
+  if (!std::is_sorted(at(first), repair.orbits.end(), before)) {
+    std::sort(at(first), repair.orbits.end(), before);
   }
 }
 

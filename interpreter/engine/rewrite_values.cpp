@@ -11,47 +11,14 @@ namespace gmsim::engine {
 
 bool Rewriter::Implementation::evaluate(const compile::Rule& rule, RewriteOutcome& outcome) {
   const TreeEvaluator::Keeping keeping(matcher.evaluator());
-  for (const compile::Assignment& assignment : rule.rewrite.assignments) {
+  for (std::size_t k = 0; k < rule.rewrite.assignments.size(); ++k) {
+    const compile::Assignment& assignment = rule.rewrite.assignments[k];
     if (!state.store.in_use(assignment.embedding)) continue;
-    pick_rows(assignment.joined);
-    for (const std::uint32_t row : rows_) {
+    for (const std::uint32_t row : row_plan_->assigned_rows[k]) {
       if (!evaluate_at(rule, assignment, row, outcome)) return false;
     }
   }
   return true;
-}
-
-/// The first row of each group that the joined positions connect.
-void Rewriter::Implementation::pick_rows(const std::vector<std::uint32_t>& joined) {
-  rows_.assign(1, 0);
-  if (match_.rows == 1 || joined.size() == match_.positions) return;
-  rows_.clear();
-  row_seen_.assign(match_.rows, 0);
-  for (std::uint32_t row = 0; row < match_.rows; ++row) {
-    if (row_seen_[row] != 0) continue;
-    rows_.push_back(row);
-    walk_rows(row, joined);
-  }
-}
-
-/// The rows of the group of `row`, into `row_queue_`; marks them as seen.
-void Rewriter::Implementation::walk_rows(std::uint32_t row,
-                                         const std::vector<std::uint32_t>& joined) {
-  row_seen_[row] = 1;
-  row_queue_.assign(1, row);
-  if (joined.size() == 1) {  // a link leads back where it comes from
-    const std::uint32_t other = match_.next_row(row, joined.front());
-    row_seen_[other] = 1;
-    if (other != row) row_queue_.push_back(other);
-    return;
-  }
-  for (std::size_t next = 0; next < row_queue_.size(); ++next) {
-    for (const std::uint32_t position : joined) {
-      const std::uint32_t to = match_.next_row(row_queue_[next], position);
-      if (row_seen_[to] == 0) row_queue_.push_back(to);
-      row_seen_[to] = 1;
-    }
-  }
 }
 
 bool Rewriter::Implementation::evaluate_at(const compile::Rule& rule,

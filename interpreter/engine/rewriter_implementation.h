@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/rewrite.h"
+#include "engine/rewrite_rows.h"
 #include "engine/spread_values.h"
 #include "gmap/journal.h"
 
@@ -35,31 +36,37 @@ class Rewriter::Implementation {
 
  private:
   using Diagnostic = std::optional<support::Diagnostic>;
+  /// Of the effects before the rewrite at hand, beside those of the orbits.
+  struct Counts {
+    std::size_t touched = 0;
+    std::uint64_t created_darts = 0, removed_darts = 0, written_values = 0;
+  };
 
   bool match(const compile::Rule& rule, std::span<const DartId> hooks, const Arguments& arguments,
              RewriteOutcome& outcome);
   [[nodiscard]] bool may_fail(const compile::Rule& rule);
+  [[nodiscard]] Counts count_effects() const;
+  void forget_effects(const Counts& before);
   // values of the right side, on the old map
   bool evaluate(const compile::Rule& rule, RewriteOutcome& outcome);
   bool evaluate_at(const compile::Rule& rule, const compile::Assignment& assignment,
                    std::uint32_t row, RewriteOutcome& outcome);
   bool bind_row(const compile::MatchPlan& plan, std::uint32_t row, RewriteOutcome& outcome);
-  void pick_rows(const std::vector<std::uint32_t>& joined);
-  void walk_rows(std::uint32_t row, const std::vector<std::uint32_t>& joined);
   // topology
   void change_links(const compile::RewritePlan& plan);
   void add_darts(const compile::RewritePlan& plan);
-  void write_links(const compile::RewritePlan& plan);
-  void remove_darts(const compile::RewritePlan& plan);
+  void write_links();
+  void remove_darts();
+  void append(const std::vector<RowPlan::Place>& places, std::vector<DartId>& out) const;
+  std::span<const DartId> gather(const std::vector<RowPlan::Place>& places,
+                                 std::vector<DartId>& memory) const;
   // rewrite_orbits.cpp
   void repair_orbits(const compile::RewritePlan& plan);
   void list_touched(const compile::RewritePlan& plan, OrbitType type);
-  void follow_classes(const compile::OrbitClasses& classes, gmap::OrbitIndex& index,
+  void follow_classes(const RowPlan::Orbits& orbits, gmap::OrbitIndex& index,
                       gmap::OrbitRepair& repair);
-  void enter_kept(const compile::OrbitClass& orbits, gmap::OrbitIndex& index,
-                  gmap::OrbitRepair& repair);
-  void list_whole(const compile::OrbitClass& orbits);
-  void publish_kept(const gmap::OrbitIndex& index, gmap::OrbitRepair& repair);
+  void enter_kept(const RowPlan::Orbits& orbits, gmap::OrbitIndex& index);
+  void publish_kept(const gmap::OrbitIndex& index, std::size_t first, gmap::OrbitRepair& repair);
   // values on the new map
   Diagnostic store_values(const compile::Rule& rule);
   Diagnostic announce_created();
@@ -72,23 +79,22 @@ class Rewriter::Implementation {
   gmap::Journal journal_;
   bool recording_ = false;
   ValueSpreader spreader_;
+  RowPlans row_plans_;
 
   // work space of one application
   Frame frame_;
   Match match_;
   std::vector<DartId> hooks_;
-  std::vector<std::uint32_t> rows_;           // at which an assignment is evaluated
-  std::vector<std::uint8_t> row_seen_;
-  std::vector<std::uint32_t> row_queue_;
+  const RowPlan* row_plan_ = nullptr;         // of the match
   std::vector<AssignedValue> assigned_;
   std::vector<std::pair<std::uint32_t, compile::Column>> assigned_cells_;  // row and column
   std::vector<double> numbers_;
   std::vector<DartId> touched_;
   std::vector<ChangedOrbits> changed_;
+  gmap::OrbitRepair repair_space_;            // of all repairs
   std::vector<Row> kept_rows_;                // of orbits that created darts entered
   std::vector<DartId> whole_;                 // darts of whole orbits, one orbit after the other
-  std::vector<std::uint32_t> whole_ends_;
-  Effects effects_;
+  Effects* effects_ = nullptr;                // of the caller, who may have had others
 };
 
 }  // namespace gmsim::engine

@@ -25,6 +25,16 @@ bool all_finite(std::span<const double> value) {
 
 }  // namespace
 
+void ChangedOrbits::forget(gmap::OrbitRepair& done) const {
+  done.orbits.resize(before.orbits);
+  done.sources.resize(before.sources);
+  done.removed.resize(before.removed);
+  done.created = before.created;
+  done.split = before.split;
+  done.merged = before.merged;
+  done.visited_darts = before.visited_darts;
+}
+
 std::optional<support::Diagnostic> ValueSpreader::run(std::span<const ChangedOrbits> changed,
                                                       std::span<const AssignedValue> assigned,
                                                       std::span<const double> numbers,
@@ -99,7 +109,7 @@ const ChangedOrbits* ValueSpreader::find(const Column& column,
 }
 
 void ValueSpreader::spread(const Column& column, const ChangedOrbits* changed) {
-  stamp_assigned(column);
+  list_assigned(column);
   if (error_) return;
   if (changed != nullptr) {
     if (state_.program.schema[column.id].kind == EmbeddingKind::Extensive) {
@@ -124,29 +134,42 @@ void ValueSpreader::next_epoch(Row row_end) {
   epoch_ = 1;
 }
 
-void ValueSpreader::stamp_assigned(const Column& column) {
+void ValueSpreader::list_assigned(const Column& column) {
   own_.clear();
+  own_rows_.clear();
   for (std::uint32_t i = 0; i < assigned_.size(); ++i) {
-    if (assigned_[i].assignment->embedding == column.id) own_.push_back(i);
+    if (assigned_[i].assignment->embedding != column.id) continue;
+    own_.push_back(i);
+    own_rows_.push_back(column.index->row(assigned_[i].dart));
   }
-  if (own_.empty()) return;
-  next_epoch(column.index->row_end());
-  for (const std::uint32_t i : own_) {
-    Stamp& stamp = assigned_rows_[column.index->row(assigned_[i].dart)];
-    if (stamp.epoch == epoch_) {
-      check_agreement(assigned_[stamp.number], assigned_[i], column.values->stride());
+  if (own_.size() > kFewAssigned) return stamp_assigned(column);
+  for (std::size_t k = 1; k < own_.size(); ++k) {
+    for (std::size_t j = k; j-- > 0;) {  // the last one before it, as stamps tell
+      if (own_rows_[j] != own_rows_[k]) continue;
+      check_agreement(own_[j], own_[k], column.values->stride());
+      break;
     }
-    stamp = {epoch_, i};
+  }
+}
+
+void ValueSpreader::stamp_assigned(const Column& column) {
+  next_epoch(column.index->row_end());
+  for (std::size_t k = 0; k < own_.size(); ++k) {
+    Stamp& stamp = assigned_rows_[own_rows_[k]];
+    if (stamp.epoch == epoch_) check_agreement(stamp.number, own_[k], column.values->stride());
+    stamp = {epoch_, own_[k]};
   }
 }
 
 bool ValueSpreader::is_assigned(Row row) const {
-  return !own_.empty() && assigned_rows_[row].epoch == epoch_;
+  if (own_.size() > kFewAssigned) return assigned_rows_[row].epoch == epoch_;
+  return std::find(own_rows_.begin(), own_rows_.end(), row) != own_rows_.end();
 }
 
 /// E7: two assignments, or one at two matches, may reach one orbit only with equal values.
-void ValueSpreader::check_agreement(const AssignedValue& first, const AssignedValue& second,
+void ValueSpreader::check_agreement(std::uint32_t earlier, std::uint32_t later,
                                     std::uint32_t stride) {
+  const AssignedValue &first = assigned_[earlier], &second = assigned_[later];
   const auto a = numbers_.subspan(first.begin, stride), b = numbers_.subspan(second.begin, stride);
   if (std::equal(a.begin(), a.end(), b.begin())) return;
   const gmap::EmbeddingDecl& decl = state_.program.schema[second.assignment->embedding];
@@ -164,9 +187,9 @@ void ValueSpreader::check_agreement(const AssignedValue& first, const AssignedVa
 }
 
 void ValueSpreader::store_assigned(const Column& column) {
-  for (const std::uint32_t i : own_) {
-    write(column, column.index->row(assigned_[i].dart),
-          numbers_.subspan(assigned_[i].begin, column.values->stride()));
+  for (std::size_t k = 0; k < own_.size(); ++k) {
+    write(column, own_rows_[k],
+          numbers_.subspan(assigned_[own_[k]].begin, column.values->stride()));
   }
 }
 
@@ -176,7 +199,7 @@ void ValueSpreader::spread_intensive(const Column& column, const ChangedOrbits& 
   pending_.clear();
   computed_.clear();
   // Parts of a split take rows that no orbit had, so copying to them hides nothing from the merges.
-  for (const OrbitChange& orbit : changed.repair->orbits) {
+  for (const OrbitChange& orbit : changed.orbits()) {
     if (is_assigned(orbit.row)) continue;
     const std::span<const Row> sources = changed.repair->sources_of(orbit);
     if (sources.empty()) {
@@ -261,7 +284,7 @@ bool ValueSpreader::merge_by_policy(const Column& column, std::span<double> out)
 void ValueSpreader::spread_extensive(const Column& column, const ChangedOrbits& changed) {
   pending_.clear();
   computed_.clear();
-  const auto& orbits = changed.repair->orbits;
+  const std::span<const OrbitChange> orbits = changed.orbits();
   const bool same = std::all_of(orbits.begin(), orbits.end(), [&](const OrbitChange& orbit) {
     const auto sources = changed.repair->sources_of(orbit);
     return sources.empty() || (sources.size() == 1 && sources.front() == orbit.row);
@@ -292,8 +315,8 @@ void ValueSpreader::spread_extensive(const Column& column, const ChangedOrbits& 
 
 /// Counts the parts of every source and adds up their weights.
 void ValueSpreader::weigh_parts(const Column& column, const ChangedOrbits& changed) {
-  if (own_.empty()) next_epoch(column.index->row_end());
-  const auto& orbits = changed.repair->orbits;
+  if (own_.size() <= kFewAssigned) next_epoch(column.index->row_end());
+  const std::span<const OrbitChange> orbits = changed.orbits();
   totals_.clear();
   parts_.clear();
   for (const OrbitChange& orbit : orbits) {
@@ -385,7 +408,7 @@ void ValueSpreader::give_default(const Column& column, const OrbitChange& orbit)
 
 /// Rows of orbits that are gone hold nothing.
 void ValueSpreader::clear_removed(const Column& column, const ChangedOrbits& changed) {
-  for (const Row row : changed.repair->removed) {
+  for (const Row row : changed.removed()) {
     if (column.values->has(row)) column.values->clear(row, journal_);
   }
 }

@@ -22,10 +22,31 @@ struct AssignedValue {
   std::size_t begin = 0;  ///< slice of the numbers of all assigned values
 };
 
-/// The orbits of one type that a rewrite changed.
+/// The orbits of one type that a rewrite changed: what repairs of their index did since `before`.
 struct ChangedOrbits {
-  const gmap::OrbitIndex* index = nullptr;
-  const gmap::OrbitRepair* repair = nullptr;
+  /// How much earlier rewrites had done.
+  struct Before {
+    std::size_t orbits = 0, sources = 0, removed = 0;
+    std::uint32_t created = 0, split = 0, merged = 0;
+    std::uint64_t visited_darts = 0;
+  };
+  ChangedOrbits(const gmap::OrbitIndex& changed, const gmap::OrbitRepair& done)
+      : index(&changed), repair(&done),
+        before{done.orbits.size(), done.sources.size(), done.removed.size(), done.created,
+               done.split, done.merged, done.visited_darts} {}
+
+  [[nodiscard]] std::span<const gmap::OrbitChange> orbits() const {
+    return std::span(repair->orbits).subspan(before.orbits);
+  }
+  [[nodiscard]] std::span<const Row> removed() const {
+    return std::span(repair->removed).subspan(before.removed);
+  }
+  /// Takes back what `done`, which is the repair that this is of, says of the rewrite.
+  void forget(gmap::OrbitRepair& done) const;
+
+  const gmap::OrbitIndex* index;
+  const gmap::OrbitRepair* repair;
+  Before before;
 };
 
 /// The embedding pass (docs/theory.md, values after a rewrite). Each changed orbit gets, in this
@@ -57,6 +78,7 @@ class ValueSpreader {
     gmap::EmbeddingColumn* values = nullptr;
     const gmap::OrbitIndex* index = nullptr;
   };
+  static constexpr std::size_t kFewAssigned = 8;  // to be compared, not stamped
   struct Stamp {
     std::uint32_t epoch = 0;
     std::uint32_t number = 0;
@@ -71,10 +93,10 @@ class ValueSpreader {
   void next_epoch(Row row_end);
   void spread(const Column& column, const ChangedOrbits* changed);
   const ChangedOrbits* find(const Column& column, std::span<const ChangedOrbits> changed) const;
+  void list_assigned(const Column& column);
   void stamp_assigned(const Column& column);
   void store_assigned(const Column& column);
-  void check_agreement(const AssignedValue& first, const AssignedValue& second,
-                       std::uint32_t stride);
+  void check_agreement(std::uint32_t earlier, std::uint32_t later, std::uint32_t stride);
   [[nodiscard]] bool is_assigned(Row row) const;
   void spread_intensive(const Column& column, const ChangedOrbits& changed);
   void merge(const Column& column, const gmap::OrbitChange& orbit, std::span<const Row> sources);
@@ -108,6 +130,7 @@ class ValueSpreader {
   std::vector<Stamp> assigned_rows_;  // by row: which assigned value
   std::uint32_t epoch_ = 0;
   std::vector<std::uint32_t> own_;    // assigned values of the column at hand
+  std::vector<Row> own_rows_;         // where they go
   std::vector<Pending> pending_;
   std::vector<double> computed_;
   std::vector<Row> valued_;

@@ -244,7 +244,7 @@ void TreeWalker::assign(const Expr& expr, Slot slot) {
       const std::uint32_t count = number_count(expr.type);
       double* value = frame_->arena_.allocate(count);
       numbers(expr, value);
-      Frame::Cell& cell = frame_->cell(slot);
+      Frame::Cell& cell = frame_->use(slot);
       const bool fits = cell.numbers != nullptr && cell.count == count;
       if (!fits) {
         cell.numbers = value;

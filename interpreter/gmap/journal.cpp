@@ -69,9 +69,14 @@ void Journal::record(const GMap& map, int i, DartId d) {
 }
 
 Journal::IndexLog& Journal::log(OrbitIndex& index) {
+  if (last_index_ < indices_.size()) {  // one index is repaired after the other
+    IndexLog& last = indices_[last_index_];
+    if (last.index == &index && last.active) return last;
+  }
   auto found = std::find_if(indices_.begin(), indices_.end(),
                             [&](const IndexLog& log) { return log.index == &index; });
   if (found == indices_.end()) found = indices_.insert(indices_.end(), IndexLog{&index});
+  last_index_ = static_cast<std::size_t>(found - indices_.begin());
   if (found->active) return *found;
   found->active = true;
   found->dart_end = index.rows_.size();

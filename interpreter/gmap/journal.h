@@ -53,6 +53,7 @@ class Journal {
 
   std::vector<MapLog> map_;  // none or one
   std::vector<IndexLog> indices_;
+  std::size_t last_index_ = 0;  // the one used last
   std::vector<ColumnLog> columns_;
 };
 

@@ -34,6 +34,8 @@ struct OrbitRepair {
   std::uint32_t merged = 0;   ///< orbits with several sources
   std::uint64_t visited_darts = 0;  ///< work done, for `--profile`
   void clear();
+  /// Exchanges the work space, not what was done: for repairs that are told apart but come in turn.
+  void swap_space(OrbitRepair& other);
 
   /// The rows before the change that an orbit's darts had.
   [[nodiscard]] std::span<const Row> sources_of(const OrbitChange& orbit) const {
@@ -48,8 +50,10 @@ struct OrbitRepair {
     std::uint32_t darts_begin = 0, darts_end = 0;  // slice of `darts_` and `old_rows_`
   };
   std::vector<Part> parts_;
-  std::vector<DartId> darts_;
-  std::vector<Row> old_rows_, open_, new_rows_;
+  std::vector<DartId> darts_;    // never shrinks
+  std::vector<DartId> queue_;
+  std::vector<Row> old_rows_;    // as long as `darts_`
+  std::vector<Row> open_, new_rows_;
 };
 
 /// Whole orbits that a caller knows: one after the other in `darts`, each up to one of `ends`.

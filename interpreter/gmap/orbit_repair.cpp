@@ -90,8 +90,6 @@ class OrbitRepairer {
 
   void repair_few(std::span<const DartId> touched, const KnownOrbits& known) {
     work_.parts_.clear();
-    work_.darts_.clear();
-    work_.old_rows_.clear();
     work_.open_.clear();
     list_known(known);
     for (DartId d : touched) {
@@ -103,14 +101,38 @@ class OrbitRepairer {
         drop(d);
       }
     }
-    std::sort(work_.parts_.begin(), work_.parts_.end(),
-              [](const auto& a, const auto& b) { return a.smallest < b.smallest; });
+    sort_parts();
     for (const OrbitRepair::Part& part : work_.parts_) name_part(part);
-    for (Row row : work_.open_) {
-      if (!marked(smallest(row))) continue;
-      if (journal_ != nullptr) journal_->record_smallest(index_, row, unmark(smallest(row)));
-      remove_row(row);
+    close_rows();
+  }
+
+  /// Where all changed orbits are known no dart need be marked.
+  void repair_known(const KnownOrbits& known) {
+    work_.parts_.clear();
+    work_.open_.clear();
+    const Row* const rows = index_.rows_.data();
+    const DartId* const darts = known.darts.data();
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : known.ends) {
+      DartId least = darts[begin];
+      Row last = kNoRow;
+      for (std::uint32_t k = begin; k < end; ++k) {
+        least = std::min(least, darts[k]);
+        const Row old = rows[index(darts[k])];
+        if (old == last) continue;
+        last = old;
+        if (old != kNoRow) open_row(old);
+      }
+      work_.parts_.push_back({least, begin, end});
+      begin = end;
     }
+    work_.visited_darts += known.darts.size();
+    sort_parts();
+    for (const OrbitRepair::Part& part : work_.parts_) {
+      name_known(known.darts.subspan(part.darts_begin, part.darts_end - part.darts_begin),
+                 part.smallest);
+    }
+    close_rows();
   }
 
   void repair_many(std::span<const DartId> touched, std::span<const DartId> known) {
@@ -140,16 +162,11 @@ class OrbitRepairer {
   void list_known(const KnownOrbits& known) {
     std::uint32_t begin = 0;
     for (const std::uint32_t end : known.ends) {
-      DartId least = known.darts[begin];
-      const auto first = static_cast<std::uint32_t>(work_.darts_.size());
-      for (const DartId d : known.darts.subspan(begin, end - begin)) {
-        take(d);
-        least = std::min(least, d);
-      }
-      work_.parts_.push_back({least, first, static_cast<std::uint32_t>(work_.darts_.size())});
+      const std::uint32_t first = listed_;
+      for (const DartId d : known.darts.subspan(begin, end - begin)) take(d);
+      end_part(first);
       begin = end;
     }
-    work_.visited_darts += known.darts.size();
   }
 
   void drop(DartId d) {
@@ -166,56 +183,105 @@ class OrbitRepairer {
   }
 
   /// Lists a dart of the part at hand.
-  void take(DartId d) {
+  [[gnu::always_inline]] void take(DartId d) {
+    if (listed_ == work_.darts_.size()) make_room();
     const Row old = row(d);
-    if (old != kNoRow) open_row(old);
-    work_.darts_.push_back(d);
-    work_.old_rows_.push_back(old);
     row(d) = kWalked;
+    work_.darts_[listed_] = d;
+    work_.old_rows_[listed_++] = old;
+    if (old == last_old_) return;
+    last_old_ = old;
+    if (old != kNoRow) open_row(old);
+  }
+
+  void make_room() {
+    constexpr std::size_t kFirst = 64;
+    work_.darts_.resize(std::max(kFirst, 2 * work_.darts_.size()));
+    work_.old_rows_.resize(work_.darts_.size());
   }
 
   void walk_part(DartId d) {
-    const auto begin = static_cast<std::uint32_t>(work_.darts_.size());
-    DartId least = d;
-    const auto visit = [&](DartId x) __attribute__((always_inline)) {
-      take(x);
-      least = std::min(least, x);
-    };
+    const std::uint32_t begin = listed_;
     if (links_.count <= 2) {
-      detail::walk_linear(links_, d, visit);
+      detail::walk_linear(
+          links_, d, [&](DartId x) __attribute__((always_inline)) { take(x); });
     } else {
-      visit(d);
-      for (std::size_t next = begin; next < work_.darts_.size(); ++next) {
+      take(d);
+      for (std::uint32_t next = begin; next < listed_; ++next) {
         for (int k = 0; k < links_.count; ++k) {
           const DartId x = links_.alpha[k][index(work_.darts_[next])];
-          if (row(x) != kWalked) visit(x);
+          if (row(x) != kWalked) take(x);
         }
       }
     }
-    work_.parts_.push_back({least, begin, static_cast<std::uint32_t>(work_.darts_.size())});
-    work_.visited_darts += work_.darts_.size() - begin;
+    end_part(begin);
+  }
+
+  /// The listed darts from number `begin` on are an orbit; its smallest comes first for name_part.
+  void end_part(std::uint32_t begin) {
+    DartId* const darts = work_.darts_.data();
+    std::uint32_t least = begin;
+    for (std::uint32_t k = begin; k < listed_; ++k) {
+      if (darts[k] < darts[least]) least = k;
+    }
+    std::swap(darts[begin], darts[least]);
+    std::swap(work_.old_rows_[begin], work_.old_rows_[least]);
+    work_.parts_.push_back({darts[begin], begin, listed_});
+    work_.visited_darts += listed_ - begin;
   }
 
   void name_part(const OrbitRepair::Part& part) {
-    Row former = kNoRow;
+    const Row former = work_.old_rows_[part.darts_begin];
+    const Row name = take_row(former, part.smallest);
     others_.clear();
+    Row* const rows = index_.rows_.data();
     for (std::uint32_t i = part.darts_begin; i < part.darts_end; ++i) {
-      if (work_.darts_[i] == part.smallest) former = work_.old_rows_[i];
-      others_.add(work_.old_rows_[i]);
-    }
-    const bool free = former != kNoRow && marked(smallest(former));
-    const Row name = free ? former : new_row();
-    if (journal_ != nullptr && free && unmark(smallest(name)) != part.smallest) {
-      journal_->record_smallest(index_, name, unmark(smallest(name)));
-    }
-    smallest(name) = part.smallest;
-    for (std::uint32_t i = part.darts_begin; i < part.darts_end; ++i) {
-      if (journal_ != nullptr && work_.old_rows_[i] != name) {
-        journal_->record_row(index_, work_.darts_[i], work_.old_rows_[i]);
-      }
-      row(work_.darts_[i]) = name;
+      const Row old = work_.old_rows_[i];
+      if (old != former) others_.add(old);
+      if (journal_ != nullptr && old != name) journal_->record_row(index_, work_.darts_[i], old);
+      rows[index(work_.darts_[i])] = name;
     }
     publish(name, part.smallest, former);
+  }
+
+  void name_known(std::span<const DartId> darts, DartId least) {
+    const Row former = row(least);
+    const Row name = take_row(former, least);
+    others_.clear();
+    Row* const rows = index_.rows_.data();
+    for (const DartId d : darts) {
+      const Row old = rows[index(d)];
+      if (old != former) others_.add(old);
+      if (old == name) continue;
+      if (journal_ != nullptr) journal_->record_row(index_, d, old);
+      rows[index(d)] = name;
+    }
+    publish(name, least, former);
+  }
+
+  /// The row for an orbit whose smallest dart had the row `former`.
+  Row take_row(Row former, DartId least) {
+    const bool free = former != kNoRow && marked(smallest(former));
+    const Row name = free ? former : new_row();
+    if (journal_ != nullptr && free && unmark(smallest(name)) != least) {
+      journal_->record_smallest(index_, name, unmark(smallest(name)));
+    }
+    smallest(name) = least;
+    return name;
+  }
+
+  void sort_parts() {
+    const auto before = [](const auto& a, const auto& b) { return a.smallest < b.smallest; };
+    if (std::is_sorted(work_.parts_.begin(), work_.parts_.end(), before)) return;
+    std::sort(work_.parts_.begin(), work_.parts_.end(), before);
+  }
+
+  void close_rows() {
+    for (const Row row : work_.open_) {
+      if (!marked(smallest(row))) continue;
+      if (journal_ != nullptr) journal_->record_smallest(index_, row, unmark(smallest(row)));
+      remove_row(row);
+    }
   }
 
   // --- many touched darts: rows are marked when they are taken
@@ -264,14 +330,14 @@ class OrbitRepairer {
 
   template <class Visit>
   void walk_breadth_first(DartId d, Visit&& visit) {
-    work_.darts_.assign(1, d);
+    work_.queue_.assign(1, d);
     visit(d);
     const Row name = work_.new_rows_[index(d)];
-    for (std::size_t next = 0; next < work_.darts_.size(); ++next) {
+    for (std::size_t next = 0; next < work_.queue_.size(); ++next) {
       for (int k = 0; k < links_.count; ++k) {
-        const DartId x = links_.alpha[k][index(work_.darts_[next])];
+        const DartId x = links_.alpha[k][index(work_.queue_[next])];
         if (work_.new_rows_[index(x)] == name) continue;
-        work_.darts_.push_back(x);
+        work_.queue_.push_back(x);
         visit(x);
       }
     }
@@ -331,6 +397,8 @@ class OrbitRepairer {
   Journal* journal_;
   detail::OrbitLinks links_;
   OtherRows others_;
+  std::uint32_t listed_ = 0;  // darts of all parts
+  Row last_old_ = kNoRow;     // of the dart listed last
 };
 
 void OrbitRepair::clear() {
@@ -341,13 +409,22 @@ void OrbitRepair::clear() {
   visited_darts = 0;
 }
 
+void OrbitRepair::swap_space(OrbitRepair& other) {
+  parts_.swap(other.parts_);
+  darts_.swap(other.darts_);
+  queue_.swap(other.queue_);
+  old_rows_.swap(other.old_rows_);
+  open_.swap(other.open_);
+  new_rows_.swap(other.new_rows_);
+}
+
 void OrbitIndex::repair(const GMap& map, std::span<const DartId> touched,
                         const KnownOrbits& known, OrbitRepair& repair, Journal* journal) {
   if (touched.empty() && known.darts.empty()) return;
   if (journal != nullptr) journal->begin(*this);
   OrbitRepairer repairer(*this, map, repair, journal);
   if (touched.size() + known.darts.size() < map.dart_end() / kManyTouched) {
-    return repairer.repair_few(touched, known);
+    return touched.empty() ? repairer.repair_known(known) : repairer.repair_few(touched, known);
   }
   repairer.repair_many(touched, known.darts);
 }

@@ -104,9 +104,14 @@ class Loader {
       report_missing_rules(rule, check::module_names(library));
     }
     const std::size_t errors = diagnostics_.error_count();
-    scene_->rules = check::check_rules(files, options_.library, sources_, diagnostics_);
+    const YamlNode* dimension = tree_.find("dimension");
+    check::LibraryOptions options = options_.library;
+    if (good() && dimension != nullptr) {
+      options.dimension = static_cast<int>(number_of(*dimension, sources_));
+    }
+    scene_->rules = check::check_rules(files, options, sources_, diagnostics_);
     // messages about names would only repeat what is wrong with the rules
-    return found && diagnostics_.error_count() == errors && tree_.find("dimension") != nullptr;
+    return found && diagnostics_.error_count() == errors && dimension != nullptr;
   }
 
   void report_missing_rules(const YamlNode& rule, std::vector<std::string> names) {
