@@ -14,13 +14,22 @@ namespace {
 // Chunks of the schedule for each thread: more share the load better, fewer use slots more often.
 constexpr std::uint32_t kChunksPerThread = 4;
 constexpr Row kRowsPerTask = 4096;
+// Threads that wait for each other suffer from other programs: they have to be faster by this much.
+constexpr double kClearGain = 1.1;
 
 }  // namespace
 
 void ThreadProbe::note(double seconds) {
-  double& fastest = fastest_[runs_ % 2];
-  fastest = std::min(fastest, seconds);
+  seconds_[runs_ % 2][runs_ / 2] = seconds;
   ++runs_;
+}
+
+bool ThreadProbe::alone_is_faster() const {
+  const auto median = [](std::array<double, kRuns> times) {
+    std::nth_element(times.begin(), times.begin() + kRuns / 2, times.end());
+    return times[kRuns / 2];
+  };
+  return median(seconds_[0]) <= kClearGain * median(seconds_[1]);
 }
 
 KernelForces::KernelForces(const State& state, const Model& model, unsigned threads,

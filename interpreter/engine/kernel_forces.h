@@ -26,11 +26,11 @@ class ThreadProbe {
   void restart() { *this = ThreadProbe(); }
 
  private:
-  static constexpr int kRuns = 8;  // of each kind; the fastest counts
-  [[nodiscard]] bool alone_is_faster() const { return fastest_[0] <= fastest_[1]; }
+  static constexpr int kRuns = 9;  // of each kind; the median counts
+  [[nodiscard]] bool alone_is_faster() const;
 
   int runs_ = 0;
-  double fastest_[2] = {1e30, 1e30};  // s; alone, shared
+  std::array<std::array<double, kRuns>, 2> seconds_{};  // alone, shared
 };
 
 /// Forces by kernels over match tables. Where criteria read single forces there are two passes: one
