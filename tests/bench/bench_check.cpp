@@ -72,8 +72,9 @@ struct ProcessTimes {
 
 /// Runs gmsim once, its output thrown away.
 void run_process(const std::filesystem::path& result, ProcessTimes& times) {
-  std::vector<std::string> words{GMSIM_PROGRAM, kScene, "--set", "duration=1e-3", "--force", "-o",
-                                 result.string()};
+  // What the scene expects comes later than the first step.
+  std::vector<std::string> words{GMSIM_PROGRAM, kScene,    "--set", "duration=1e-3", "--set",
+                                 "expect=[]",   "--force", "-o",    result.string()};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

@@ -6,6 +6,7 @@
 
 #include "check_text.h"
 
+using namespace gmsim;
 using gmsim::check_tests::check_text;
 
 TEST_CASE("an item that names what a dimension lacks is absent there") {
@@ -123,4 +124,24 @@ TEST_CASE("a text that does not parse hides the names that may be in it") {
   const auto checked = check_text("function f(a = 1; rule r(a) { left { a; } where f(a) > 0; }");
   for (const auto& diagnostic : checked.diagnostics.all())
     CHECK(diagnostic.kind == gmsim::support::DiagnosticKind::Syntax);
+}
+
+TEST_CASE("who asks for one dimension gets the library there; what users write is checked in all") {
+  check::LibraryOptions options;
+  options.dimension = 2;
+  support::SourceMap sources;
+  support::Diagnostics diagnostics;
+  const check::CheckedRules library = check::check_texts({}, options, sources, diagnostics);
+  const check::CheckedRules all = check::check_texts({}, {}, sources, diagnostics);
+  CHECK(diagnostics.all().empty());
+  CHECK(library.in(2).rules.size() > 0);
+  CHECK(library.in(2).rules.size() == all.in(2).rules.size());
+  CHECK(library.why_absent("cone_volume", 2) == all.why_absent("cone_volume", 2));
+  CHECK(library.in(3).rules.empty());
+
+  const support::FileId own = sources.add(
+      "own.rule", "dimension 3;\nrule own(a) { left { a<0,1,2,3>; } where a.nothing > 0; }\n");
+  const check::CheckedRules both = check::check_texts({own}, options, sources, diagnostics);
+  CHECK(diagnostics.error_count() == 1);
+  CHECK(both.in(3).rules.size() == all.in(3).rules.size());
 }
