@@ -20,10 +20,13 @@ namespace gmsim::bench {
 /// The cloth of a scene file with n by n patches.
 class SceneCloth {
  public:
-  SceneCloth(const std::string& file, std::uint32_t n, double dt, unsigned threads = 1) {
+  /// `overrides`: what else is set, as after `--set`.
+  SceneCloth(const std::string& file, std::uint32_t n, double dt, unsigned threads = 1,
+             const std::vector<std::string>& overrides = {}) {
     scene::SceneOptions options;
     options.overrides = {fmt::format("bodies.cloth.mesh.grid.patches=[{}, {}]", n, n),
                          fmt::format("integrator.dt={:.17g}", dt)};
+    options.overrides.insert(options.overrides.end(), overrides.begin(), overrides.end());
     scene_ = scene::load_scene(file, options, sources_, diagnostics_);
     if (scene_)
       simulation_ = engine::Simulation::create(*scene_->state, scene_->model, scene_->integrator,
@@ -32,6 +35,12 @@ class SceneCloth {
   }
   void step() {
     if (!simulation_->step(1e9, diagnostics_)) stop_on_errors();
+  }
+  /// Value over threshold of everything that the first line of `tear` judges.
+  std::vector<double> ratios() {
+    const auto reports = simulation_->survey(diagnostics_);
+    stop_on_errors();
+    return reports->at(0).ratios;
   }
   /// Largest distance between its vertices and those of another cloth, as numbered by the scene.
   double distance(const bench::ClothStepper& other) {

@@ -30,6 +30,7 @@ class Builder {
         patch(i, j, mesh == ClothMesh::Tri4 || (mesh == ClothMesh::Mix4 && (i + j) % 2 == 1));
     cloth_.fixed = {n * (n + 1), n * (n + 1) + n};
     share_mass();
+    number_corners();
     add_face_springs();
     add_bending_springs();
   }
@@ -53,42 +54,67 @@ class Builder {
         cloth_.mass[vertex] += mass / static_cast<double>(face.size());
     }
   }
-  void add(Index i, Index j, double stiffness) {
-    cloth_.springs.push_back(
-        {i, j, stiffness, distance(cloth_.points[i], cloth_.points[j]), kDamping});
-  }
-  void add_face_springs() {
-    for (const auto& face : cloth_.faces)
-      for (std::size_t k = 0; k < face.size(); ++k)
-        add(face[k], face[(k + 1) % face.size()], kStretch);
+  /// A vertex as a corner of a face.
+  struct Corner {
+    Index vertex, number;
+  };
+  void number_corners() {
+    Index next = 0;
     for (const auto& face : cloth_.faces) {
-      if (face.size() != 4) continue;
-      add(face[0], face[2], kShear);
-      add(face[1], face[3], kShear);
+      first_corner_.push_back(next);
+      next += static_cast<Index>(face.size());
     }
   }
-  /// The other neighbours of `from` and `to` along the face, for its side from -> to.
-  struct Neighbours {
-    Index of_from, of_to;
+  [[nodiscard]] Corner corner(Index face, std::size_t k) const {
+    const auto& vertices = cloth_.faces[face];
+    const auto around = static_cast<Index>(k % vertices.size());
+    return {vertices[around], first_corner_[face] + around};
+  }
+  void add(Corner i, Corner j, double stiffness) {
+    const double rest = distance(cloth_.points[i.vertex], cloth_.points[j.vertex]);
+    cloth_.springs.push_back({i.vertex, j.vertex, stiffness, rest, kDamping});
+    cloth_.spring_corners.push_back({i.number, j.number});
+  }
+  void add_face_springs() {
+    const auto faces = static_cast<Index>(cloth_.faces.size());
+    for (Index face = 0; face < faces; ++face)
+      for (std::size_t k = 0; k < cloth_.faces[face].size(); ++k)
+        add(corner(face, k), corner(face, k + 1), kStretch);
+    for (Index face = 0; face < faces; ++face) {
+      if (cloth_.faces[face].size() != 4) continue;
+      add(corner(face, 0), corner(face, 2), kShear);
+      add(corner(face, 1), corner(face, 3), kShear);
+    }
+  }
+  /// A face's side from -> to, and the other neighbours of both along the face.
+  struct Side {
+    Index face;
+    Corner from, to, before, after;
   };
   void add_bending_springs() {
-    std::map<std::pair<Index, Index>, Neighbours> sides;
-    for (const auto& face : cloth_.faces) {
-      const std::size_t size = face.size();
+    std::map<std::pair<Index, Index>, Side> sides;
+    for (Index face = 0; face < cloth_.faces.size(); ++face) {
+      const std::size_t size = cloth_.faces[face].size();
       for (std::size_t k = 0; k < size; ++k)
-        sides[{face[k], face[(k + 1) % size]}] = {face[(k + size - 1) % size],
-                                                  face[(k + 2) % size]};
+        sides[{corner(face, k).vertex, corner(face, k + 1).vertex}] = {
+            face, corner(face, k), corner(face, k + 1), corner(face, k + size - 1),
+            corner(face, k + 2)};
     }
     for (const auto& [side, here] : sides) {
       const auto other = sides.find({side.second, side.first});
       if (other == sides.end() || side.second < side.first) continue;
-      add(here.of_from, other->second.of_to, kBend);
-      add(here.of_to, other->second.of_from, kBend);
+      const Side& there = other->second;
+      add(here.before, there.after, kBend);
+      add(here.after, there.before, kBend);
+      cloth_.edges.push_back({side.first, side.second, {here.face, there.face},
+                              {here.from.number, there.to.number},
+                              {here.to.number, there.from.number}});
     }
   }
 
   Index n_;
   Cloth cloth_;
+  std::vector<Index> first_corner_;  // of each face
 };
 
 }  // namespace

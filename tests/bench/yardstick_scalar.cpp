@@ -26,7 +26,15 @@ struct Vertex {
   Vector x, v;
 };
 
-class Scalar : public ClothStepper {
+Vector cross(const Vector& a, const Vector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+Vector unit(const Vector& a) {
+  return 1 / std::sqrt(dot(a, a)) * a;
+}
+
+template <class Base>
+class Scalar : public Base {
  public:
   Scalar(const Cloth& cloth, std::vector<ClothSpring> springs)
       : springs_(std::move(springs)), vertices_(cloth.points.size()) {
@@ -46,7 +54,7 @@ class Scalar : public ClothStepper {
   }
 
   void step(double dt) override {
-    add_forces(vertices_);
+    first_stage();
     for (std::size_t k = 0; k < vertices_.size(); ++k) {
       const Vector v = vertices_[k].v, a = acceleration(k);
       sum_[k] = {v, a};
@@ -65,10 +73,17 @@ class Scalar : public ClothStepper {
     return {x.x, x.y, x.z};
   }
 
- private:
+ protected:
+  /// The forces of the state that the step begins with.
+  virtual void first_stage() { add_forces(vertices_); }
   void add_forces(const std::vector<Vertex>& at) {
+    add_forces(at, [](std::size_t, const Vector&) {});
+  }
+  template <class Keep>
+  void add_forces(const std::vector<Vertex>& at, const Keep& keep) {
     for (Vector& force : force_) force = {};
-    for (const ClothSpring& spring : springs_) {
+    for (std::size_t k = 0; k < springs_.size(); ++k) {
+      const ClothSpring& spring = springs_[k];
       const Vector d = at[spring.j].x - at[spring.i].x, dv = at[spring.j].v - at[spring.i].v;
       const double length = std::sqrt(dot(d, d)), inverse = 1 / length;
       const double pull =
@@ -76,8 +91,15 @@ class Scalar : public ClothStepper {
       const Vector force = pull * inverse * d;
       force_[spring.i] = force_[spring.i] + force;
       force_[spring.j] = force_[spring.j] - force;
+      keep(k, force);
     }
   }
+
+  std::vector<ClothSpring> springs_;
+  std::vector<Vertex> vertices_;
+  std::vector<Vector> force_;
+
+ private:
   [[nodiscard]] Vector acceleration(std::size_t k) const {
     return inverse_mass_[k] * force_[k] + gravity_[k];
   }
@@ -91,19 +113,94 @@ class Scalar : public ClothStepper {
     }
   }
 
-  std::vector<ClothSpring> springs_;
-  std::vector<Vertex> vertices_, stage_, sum_;  // sum_: of slopes
-  std::vector<Vector> force_, gravity_;
+  std::vector<Vertex> stage_, sum_;  // sum_: of slopes
+  std::vector<Vector> gravity_;
   std::vector<double> inverse_mass_;
+};
+
+class Judging final : public Scalar<JudgingCloth> {
+ public:
+  Judging(const Cloth& cloth, EdgeCriterion criterion, double threshold)
+      : Scalar(cloth, cloth.springs),
+        criterion_(criterion),
+        threshold_(threshold),
+        spring_corners_(cloth.spring_corners),
+        edges_(cloth.edges),
+        faces_(cloth.faces),
+        spring_force_(cloth.springs.size()),
+        normal_(cloth.faces.size()) {
+    std::size_t corners = 0;
+    for (const auto& face : faces_) corners += face.size();
+    corner_.resize(corners);
+  }
+
+  [[nodiscard]] std::uint64_t fired() const override { return fired_; }
+  [[nodiscard]] std::vector<double> values() override {
+    std::vector<double> result;
+    evaluate();
+    judge([&](double value) { result.push_back(value); });
+    return result;
+  }
+
+ private:
+  void first_stage() override {
+    evaluate();
+    judge([&](double value) { fired_ += value > threshold_ ? 1 : 0; });
+  }
+  void evaluate() {
+    if (criterion_ == EdgeCriterion::Global) return add_forces(vertices_);
+    add_forces(vertices_, [&](std::size_t k, const Vector& force) { spring_force_[k] = force; });
+    for (Vector& corner : corner_) corner = {};
+    for (std::size_t k = 0; k < spring_force_.size(); ++k) {
+      const auto [i, j] = spring_corners_[k];
+      corner_[i] = corner_[i] + spring_force_[k];
+      corner_[j] = corner_[j] - spring_force_[k];
+    }
+  }
+  template <class Take>
+  void judge(const Take& take) {
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      Vector area;
+      const auto& face = faces_[f];
+      for (std::size_t k = 0; k < face.size(); ++k)
+        area = area + cross(vertices_[face[k]].x,
+                            vertices_[face[k + 1 < face.size() ? k + 1 : 0]].x);
+      normal_[f] = unit(area);
+    }
+    for (const ClothEdge& edge : edges_) {
+      const Vector along = vertices_[edge.b].x - vertices_[edge.a].x;
+      const Vector out = unit(cross(along, normal_[edge.face[0]] + normal_[edge.face[1]]));
+      take(criterion_ == EdgeCriterion::Global
+               ? std::abs(dot(force_[edge.a] + force_[edge.b], out))
+               : pulled_apart(edge, out));
+    }
+  }
+  [[nodiscard]] double pulled_apart(const ClothEdge& edge, const Vector& out) const {
+    const double here = dot(corner_[edge.corner_a[0]] + corner_[edge.corner_b[0]], out);
+    const double there = dot(corner_[edge.corner_a[1]] + corner_[edge.corner_b[1]], out);
+    return here < 0 && there > 0 ? there - here : 0;
+  }
+
+  EdgeCriterion criterion_;
+  double threshold_;
+  std::vector<std::array<std::uint32_t, 2>> spring_corners_;
+  std::vector<ClothEdge> edges_;
+  std::vector<std::vector<std::uint32_t>> faces_;
+  std::vector<Vector> spring_force_, corner_, normal_;
+  std::uint64_t fired_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<ClothStepper> scalar_cloth(const Cloth& cloth) {
-  return std::make_unique<Scalar>(cloth, cloth.springs);
+  return std::make_unique<Scalar<ClothStepper>>(cloth, cloth.springs);
+}
+std::unique_ptr<JudgingCloth> scalar_cloth(const Cloth& cloth, EdgeCriterion criterion,
+                                           double threshold) {
+  return std::make_unique<Judging>(cloth, criterion, threshold);
 }
 std::unique_ptr<ClothStepper> merged_cloth(const Cloth& cloth) {
-  return std::make_unique<Scalar>(cloth, merged(cloth.springs));
+  return std::make_unique<Scalar<ClothStepper>>(cloth, merged(cloth.springs));
 }
 
 }  // namespace gmsim::bench

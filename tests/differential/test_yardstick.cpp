@@ -2,8 +2,11 @@
 // The hand-written cloths agree with each other and with a reference solution.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "bench/scene_cloth.h"
 #include "bench/yardstick.h"
 
 using namespace gmsim;
@@ -73,4 +76,39 @@ TEST_CASE("the three cloths move alike") {
       CHECK(distance(scalar->position(k), simd->position(k)) < 5e-14);
     }
   }
+}
+
+TEST_CASE("the hand-written criteria have the values of gmsim's on every edge") {
+  const double dt = 2.5e-4, threshold = 1e6;
+  const auto sorted = [](std::vector<double> values) {
+    for (double& value : values)
+      if (std::isnan(value)) value = 0;  // not pulled apart: no value, no threshold
+    std::sort(values.begin(), values.end());
+    return values;
+  };
+  const std::pair<ClothMesh, const char*> meshes[] = {
+      {ClothMesh::Quads, "quads"}, {ClothMesh::Tri4, "tri4"}, {ClothMesh::Mix4, "mix4"}};
+  const std::pair<bench::EdgeCriterion, const char*> criteria[] = {
+      {bench::EdgeCriterion::Global, "global_facet_force"},
+      {bench::EdgeCriterion::Atomic, "atomic_facet_force"}};
+  for (const auto& [mesh, name] : meshes)
+    for (const auto& [criterion, rule] : criteria) {
+      CAPTURE(name);
+      CAPTURE(rule);
+      const auto theirs =
+          bench::scalar_cloth(bench::paper_cloth(mesh, 4), criterion, threshold);
+      bench::SceneCloth ours(std::string("scenes/paper/table2_") + name + ".yaml", 4, dt, 1,
+                             {std::string("tear=[{ when: ") + rule +
+                              ", threshold: 1e6, do: separate_elements }]"});
+      for (int step = 0; step < 800; ++step) {
+        theirs->step(dt);
+        ours.step();
+      }
+      const auto a = sorted(theirs->values()), b = sorted(ours.ratios());
+      REQUIRE(a.size() == b.size());
+      CHECK(a.back() > 0.05);
+      for (std::size_t k = 0; k < a.size(); ++k)
+        CHECK(a[k] == doctest::Approx(b[k] * threshold).epsilon(1e-9).scale(0.1));
+      CHECK(theirs->fired() == 0);
+    }
 }
