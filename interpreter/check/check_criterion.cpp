@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "check/build_pattern.h"
+#include "check/change_target.h"
 #include "check/check_expr.h"
 #include "check/item_checks.h"
 #include "check/passes.h"
@@ -45,7 +46,7 @@ class CriterionChecker {
  private:
   void build_own() {
     check_statement_kinds(context_, item_.body, "a criterion",
-                          {"dimension", "match", "param", "let", "where", "value", "result"});
+                          {"dimension", "match", "param", "let", "where", "value", "result", "apply"});
     if (const auto orbit = resolve_orbit(context_, item_.orbit)) criterion_.orbit = *orbit;
     PatternBuilder builder(context_, syntax::SideKind::Match);
     const auto* match = find_side(item_.body, syntax::SideKind::Match);
@@ -74,7 +75,7 @@ class CriterionChecker {
   /// The interaction's pattern, its lets and, read where they are stored, its parameters.
   void take_over() {
     check_statement_kinds(context_, item_.body, "a criterion of an interaction",
-                          {"dimension", "param", "let", "where", "value", "result"});
+                          {"dimension", "param", "let", "where", "value", "result", "apply"});
     const Interaction& law = of_->result;
     criterion_.interaction = law.id;
     criterion_.orbit = law.orbit;
@@ -147,6 +148,45 @@ class CriterionChecker {
           checker.check_as(value->value, {.type = {ValueKind::Real}, .what = "a value"});
     if (const auto* result = std::get_if<syntax::ResultStatement>(&statement.node))
       criterion_.results.push_back(check_result(context_, *result));
+    if (const auto* apply = std::get_if<syntax::ApplyStatement>(&statement.node))
+      set_default(*apply, statement.span);
+  }
+
+  // ---- what is done by default ------------------------------------------------------------------
+
+  void bad_default(Span place, std::string message, std::string help) {
+    context_.report({.kind = DiagnosticKind::BadItem,
+                     .message = std::move(message),
+                     .place = place,
+                     .help = std::move(help)});
+  }
+
+  /// `apply CHANGE(node);`: its parameters are results of the criterion, or come from the scene.
+  void set_default(const syntax::ApplyStatement& apply, Span span) {
+    const std::string& name = apply.rule.text;
+    if (criterion_.change)
+      return bad_default(span, "a criterion has one default", "an operation may apply several rules");
+    if (!apply.parameters.empty())
+      return bad_default(apply.parameters.front().name.span,
+                         "what a criterion applies takes its parameters from the criterion's results",
+                         "write `result " + apply.parameters.front().name.text + " = …;`");
+    const auto target = find_change(context_, apply.rule);
+    if (!target) return;
+    if (target->darts != 1)
+      return bad_default(apply.rule.span,
+                         "`" + name + "` has " + std::to_string(target->darts) +
+                             " hooks, a criterion gives one",
+                         "name a rule with one hook, or an operation");
+    const auto* node = apply.arguments.size() == 1
+                           ? std::get_if<syntax::NameExpr>(&apply.arguments[0]->node)
+                           : nullptr;
+    const auto found = node ? criterion_.match.find(node->name.text) : std::nullopt;
+    if (!found)
+      return bad_default(apply.arguments.empty() ? apply.rule.span : apply.arguments[0]->span,
+                         "`" + name + "` is to be applied to one node of the pattern",
+                         "write `apply " + name + "(" +
+                             criterion_.match.nodes[criterion_.hook].name + ");`");
+    criterion_.change = DefaultChange{target->operation, target->index, *found};
   }
 
   /// Of the interaction's lets those that the criterion reads; its conditions all hold.

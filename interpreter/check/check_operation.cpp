@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "check/change_target.h"
 #include "check/check_expr.h"
 #include "check/item_checks.h"
 #include "check/statements.h"
@@ -132,67 +133,9 @@ class OperationChecker {
 
   // ---- apply ------------------------------------------------------------------------------------
 
-  struct Target {
-    bool operation = false;
-    std::uint32_t index = 0;
-    std::size_t darts = 1;
-    const std::vector<Parameter>* parameters = nullptr;
-    Span span;
-  };
-
-  std::optional<Target> find_target(const syntax::Name& name) {
-    const ItemTable& items = *context_.env.items;
-    const RuleLibrary& library = *context_.env.library;
-    for (const NameSpace space : {NameSpace::Rules, NameSpace::Operations}) {
-      const auto item = items.find(space, name.text, context_.n());
-      if (!item) continue;
-      if (context_.env.states[*item].status == ItemStatus::InProgress) {
-        context_.report({.kind = DiagnosticKind::RecursiveDefinition,
-                         .message = "operation `" + name.text + "` applies itself",
-                         .place = name.span});
-        return std::nullopt;
-      }
-      if (!context_.require(*item, name.span)) return std::nullopt;
-      if (context_.env.states[*item].status == ItemStatus::Unchecked) {
-        context_.report({.kind = DiagnosticKind::TooDeep,
-                         .message = "operations apply operations too deep",
-                         .place = name.span});
-        return std::nullopt;
-      }
-      if (const Rule* rule = library.find_rule(name.text); rule && space == NameSpace::Rules)
-        return Target{false, static_cast<std::uint32_t>(rule - library.rules.data()),
-                      rule->hooks.size(), &rule->parameters, rule->name_span};
-      if (const Operation* operation = library.find_operation(name.text))
-        return Target{true,
-                      static_cast<std::uint32_t>(operation - library.operations.data()), 1,
-                      &operation->parameters, operation->name_span};
-    }
-    report_unknown(name);
-    return std::nullopt;
-  }
-
-  void report_unknown(const syntax::Name& name) {
-    const ItemTable& items = *context_.env.items;
-    for (const NameSpace space : {NameSpace::Rules, NameSpace::Operations})
-      if (const auto other = items.find_any(space, name.text); other && items[*other].dimension) {
-        context_.absent(DiagnosticKind::Dimension, name.span,
-                        std::string(noun(items[*other].kind)) + " `" + name.text +
-                            "` says `dimension " + std::to_string(*items[*other].dimension) +
-                            ";`");
-        return;
-      }
-    std::vector<std::string> names = items.names(NameSpace::Rules);
-    for (const std::string& operation : items.names(NameSpace::Operations))
-      names.push_back(operation);
-    context_.report_unknown({.kind = DiagnosticKind::UnknownItem,
-                             .message = "no rule or operation named `" + name.text + "`",
-                             .place = name.span,
-                             .help = support::did_you_mean(name.text, names)});
-  }
-
   void add_apply(const syntax::ApplyStatement& apply, Span span, Body& body) {
     ExprChecker checker(context_);
-    const auto target = find_target(apply.rule);
+    const auto target = find_change(context_, apply.rule);
     OpApply result;
     for (const syntax::ExprPtr& argument : apply.arguments)
       result.darts.push_back(checker.check_dart(argument, "`apply`"));
@@ -227,7 +170,7 @@ class OperationChecker {
     body.push_back({span, std::move(result)});
   }
 
-  bool add_parameter(const syntax::NamedArgument& argument, const Target& target,
+  bool add_parameter(const syntax::NamedArgument& argument, const ChangeTarget& target,
                      const std::string& rule, OpApply& apply) {
     const auto parameter =
         std::ranges::find(*target.parameters, argument.name.text, &Parameter::name);

@@ -160,6 +160,12 @@ struct Interaction : ItemHead {
   std::vector<ForceLine> forces;
   std::vector<Result> results;
 };
+/// What is done where a criterion fires, unless a scene says otherwise.
+struct DefaultChange {
+  bool operation = false;
+  std::uint32_t target = 0;  ///< index into RuleLibrary::rules or ::operations
+  NodeIndex node = 0;        ///< of the criterion's pattern: the hook of the change
+};
 struct Criterion : ItemHead {
   std::optional<InteractionId> interaction;  ///< `of`: shares that interaction's match and names
   OrbitType orbit;
@@ -170,6 +176,7 @@ struct Criterion : ItemHead {
   std::vector<Step> steps;
   ExprPtr value;
   std::vector<Result> results;
+  std::optional<DefaultChange> change;
 };
 struct Family {
   std::string name;

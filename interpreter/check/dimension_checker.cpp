@@ -21,8 +21,8 @@ const std::vector<DimensionChecker::Pass>& DimensionChecker::passes() {
       {"check.values", &DimensionChecker::check_values},
       {"check.functions", &DimensionChecker::check_functions},
       {"check.rules", &DimensionChecker::check_rules},
-      {"check.criteria", &DimensionChecker::check_criteria},
-      {"check.operations", &DimensionChecker::check_operations}};
+      {"check.operations", &DimensionChecker::check_operations},
+      {"check.criteria", &DimensionChecker::check_criteria}};
   return list;
 }
 

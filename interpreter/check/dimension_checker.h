@@ -33,8 +33,8 @@ class DimensionChecker {
   void check_values();
   void check_functions();
   void check_rules();
-  void check_criteria();
   void check_operations();
+  void check_criteria();  ///< after the rules and operations that they apply
 
   // one round of check_values
   void declare_values();

@@ -92,6 +92,11 @@ class Dump {
     steps(c.steps);
     out_ << "  value " << typed(c.value) << "\n";
     results(c.results);
+    if (c.change)
+      out_ << "  apply "
+           << (c.change->operation ? library_.operations[c.change->target].name
+                                   : library_.rules[c.change->target].name)
+           << "(" << c.match.nodes[c.change->node].name << ")\n";
     footprint(c.footprint);
   }
 

@@ -75,6 +75,17 @@ Entries list_on_orbit(const RuleLibrary& library, const std::vector<Item>& items
   return entries;
 }
 
+/// As `list_on_orbit`, with what is done where they fire.
+Entries list_criteria(const RuleLibrary& library) {
+  Entries entries = list_on_orbit(library, library.criteria);
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    if (const auto& change = library.criteria[i].change)
+      entries[i].signature += fmt::format("; apply {}",
+                                          change->operation ? library.operations[change->target].name
+                                                            : library.rules[change->target].name);
+  return entries;
+}
+
 Entries list_families(const RuleLibrary& library) {
   Entries entries;
   for (const check::Family& family : library.families) {
@@ -207,9 +218,7 @@ const std::vector<Listing>& listings() {
        [](const RuleLibrary& library) { return list_on_orbit(library, library.interactions); },
        {}},
       {"families", list_families, {}},
-      {"criteria",
-       [](const RuleLibrary& library) { return list_on_orbit(library, library.criteria); },
-       {}},
+      {"criteria", list_criteria, {}},
       {"embeddings", list_embeddings, {}},
       {"orbits", list_orbits, {}},
       {"functions", [](const RuleLibrary& library) { return list_named(library.functions); }, {}},

@@ -62,6 +62,8 @@ CriterionBody compile_body(const check::Criterion& criterion) {
   body.hook = criterion.hook;
   body.interaction = criterion.interaction;
   body.value = criterion.value;
+  if (criterion.change)
+    body.change = {criterion.change->operation, criterion.change->target, criterion.change->node};
   return body;
 }
 

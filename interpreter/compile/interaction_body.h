@@ -86,6 +86,13 @@ struct InteractionBody : ItemBody {
 struct CriterionBody : ItemBody {
   std::optional<InteractionId> interaction;  ///< `of`: shares that interaction's match
   ExprPtr value;
+  /// What is done where it fires, unless a scene says otherwise.
+  struct Change {
+    bool operation = false;
+    std::uint32_t target = 0;  ///< index into Program::rules or Program::operations
+    std::uint32_t node = 0;    ///< in `nodes`
+  };
+  std::optional<Change> change;
 };
 
 /// An expression about the dart in `dart`, on orbits of one type: an output field, a value of the

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/criteria.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -70,6 +72,26 @@ Criteria::Diagnostic Criteria::judge(const Motion& motion, double time, double d
   return std::nullopt;
 }
 
+namespace {
+
+/// A threshold that the scene computes may come out wrong where something asks to tear.
+std::optional<support::Diagnostic> threshold_problem(const TearPairing& pairing,
+                                                     const TearRequest& request,
+                                                     const std::string& criterion) {
+  if (request.threshold > 0) return std::nullopt;
+  support::Diagnostic problem{
+      support::DiagnosticKind::OutOfRange,
+      fmt::format("a threshold must be above 0, this is {:.6g}", request.threshold), pairing.span};
+  for (const SlotValue& parameter : pairing.parameters)
+    if (parameter.slot == pairing.threshold) problem.place = parameter.value.value->span;
+  problem.notes.push_back(
+      fmt::format("of `{}` at dart {}", criterion, types::index(request.hook)));
+  problem.help = "leave places that must not tear out with `where`";
+  return problem;
+}
+
+}  // namespace
+
 Criteria::Diagnostic Criteria::select(const CriterionField& field,
                                       std::vector<TearRequest>& requests) {
   const TearPairing& pairing = field.pairing();
@@ -78,6 +100,8 @@ Criteria::Diagnostic Criteria::select(const CriterionField& field,
     std::erase_if(requests, [&](const TearRequest& request) {
       return error || !holds_at(evaluator_, *pairing.where, request.hook, error);
     });
+  for (const TearRequest& request : requests)
+    if (!error) error = threshold_problem(pairing, request, field.body().name);
   choose_strongest(requests, pairing.at_most);
   if (pairing.at.empty()) return error;
   std::vector<TearRequest> at_nodes;

@@ -93,7 +93,7 @@ bool build_scene(Scene& scene, ScenePlan& plan, support::Diagnostics& diagnostic
   building.reads = embeddings_read(scene, plan);
   if (!build_state(building)) return false;
   using Step = void (*)(Building&);
-  for (const Step step : {set_masses, prepare_bodies, bind_interactions, select_vertices,
+  for (const Step step : {set_mesh_data, set_masses, prepare_bodies, bind_interactions, select_vertices,
                           set_initial_values, number_points}) {
     step(building);
     if (diagnostics.has_errors()) return false;

@@ -63,6 +63,8 @@ bool build_scene(Scene& scene, ScenePlan& plan, support::Diagnostics& diagnostic
 
 /// The map of all bodies, their positions and columns for what `reads` names.
 bool build_state(Building& building);
+/// Values from the mesh files.
+void set_mesh_data(Building& building);
 void set_masses(Building& building);
 void prepare_bodies(Building& building);
 /// Marks and parameters of interactions; fills the model.

@@ -142,6 +142,23 @@ void set_masses(Building& building) {
       share_vertex_masses(building, body);
 }
 
+void set_mesh_data(Building& building) {
+  for (std::size_t body = 0; body < building.plan.bodies.size(); ++body) {
+    for (const MeshData& data : building.plan.bodies[body].data) {
+      const gmap::EmbeddingDecl& declaration = building.scene.program.schema[data.embedding];
+      const std::size_t width = types::component_count(declaration.type);
+      const auto& row_of_dart = data.of_points ? building.mesh_dart_point : building.mesh_dart_cell;
+      const auto& first = data.of_points ? building.first_point : building.first_cell;
+      building.state().use(data.embedding);
+      for (const DartId dart : gmap::all_orbits(building.state().map, declaration.orbit)) {
+        if (!building.in_body(dart, body)) continue;
+        const std::size_t row = row_of_dart[types::index(dart)] - first[body];
+        building.state().store.set(data.embedding, dart, {&data.values[row * width], width});
+      }
+    }
+  }
+}
+
 // ---- prepare ------------------------------------------------------------------------------------
 
 namespace {

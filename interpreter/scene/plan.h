@@ -66,6 +66,13 @@ struct InitialValues {
   std::vector<std::pair<types::EmbeddingId, SceneExpression>> values = {};
 };
 
+/// Values of an embedding that the mesh file gives.
+struct MeshData {
+  types::EmbeddingId embedding{};
+  bool of_points = false;              ///< else of cells
+  std::vector<double> values = {};     ///< SI; components x rows, row after row
+};
+
 struct BodyPlan {
   enum class Mass : std::uint8_t { Total, Density, PerVertex };
   std::string name = {};
@@ -74,6 +81,7 @@ struct BodyPlan {
   Mass mass_kind = Mass::Total;
   double mass = 0;  ///< kg; of Density: kg per m, m^2 or m^3
   SceneExpression mass_of_vertex = {};
+  std::vector<MeshData> data = {};
   std::vector<Preparation> prepare = {};
   std::vector<InitialValues> initial = {};
 };

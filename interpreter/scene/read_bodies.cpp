@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "scene/import_mesh.h"
 #include "scene/quantity.h"
 #include "scene/read_context.h"
 #include "scene/schema.h"
@@ -82,6 +84,63 @@ InitialValues read_initial(const YamlNode& section, ReadContext& context) {
   return initial;
 }
 
+/// Numbers of a column, in SI units, as the type of the embedding has them.
+bool take_values(const MeshColumn& column, const gmap::EmbeddingDecl& declaration,
+                 const YamlEntry& entry, ReadContext& context, MeshData& data) {
+  const std::uint32_t components = types::component_count(declaration.type);
+  if (column.components != components) {
+    context.report(DiagnosticKind::TypeMismatch, entry.value.span,
+                   fmt::format("`{}` has {} component{}, the embedding `{}` has {}", column.name,
+                               column.components, column.components == 1 ? "" : "s",
+                               declaration.name, components));
+    return false;
+  }
+  const bool whole = declaration.type.kind == types::ValueKind::Bool ||
+                     declaration.type.kind == types::ValueKind::Int;
+  for (const double value : column.values) {
+    if (std::isfinite(value) && (!whole || value == std::floor(value))) continue;
+    context.report(DiagnosticKind::NonFinite, entry.value.span,
+                   fmt::format("`{}` has the value {}, `{}` needs {}", column.name, value,
+                               declaration.name, whole ? "whole numbers" : "finite numbers"));
+    return false;
+  }
+  for (const double value : column.values) data.values.push_back(value * declaration.unit_scale);
+  return true;
+}
+
+std::optional<MeshData> read_data(const YamlEntry& entry, const ImportedMesh& mesh,
+                                  ReadContext& context) {
+  const auto id = settable(entry, context);
+  if (!id) return std::nullopt;
+  const gmap::EmbeddingDecl& declaration = context.program.schema[*id];
+  const int n = context.dimension();
+  MeshData data{.embedding = *id,
+                .of_points = declaration.orbit == types::OrbitType::cell(0, n)};
+  if (!data.of_points && !types::OrbitType::cell(n, n).contains(declaration.orbit)) {
+    context.report(DiagnosticKind::BadItem, entry.key_span,
+                   fmt::format("`{}` is on {}, which is neither a vertex nor within an element",
+                               declaration.name, types::to_string(declaration.orbit)),
+                   "mesh files have data of points and of cells");
+    return std::nullopt;
+  }
+  const std::vector<MeshColumn>& columns = data.of_points ? mesh.point_data : mesh.cell_data;
+  const auto column = std::ranges::find(columns, entry.value.text, &MeshColumn::name);
+  if (column == columns.end()) {
+    std::vector<std::string> names;
+    for (const MeshColumn& known : columns) names.push_back(known.name);
+    const std::string guess = support::did_you_mean(entry.value.text, names);
+    context.report(DiagnosticKind::UnknownName, entry.value.span,
+                   fmt::format("the mesh has no data of {} called `{}`",
+                               data.of_points ? "points" : "cells", entry.value.text),
+                   !guess.empty()  ? guess
+                   : names.empty() ? "it has none"
+                                   : fmt::format("it has `{}`", fmt::join(names, "`, `")));
+    return std::nullopt;
+  }
+  if (!take_values(*column, declaration, entry, context, data)) return std::nullopt;
+  return data;
+}
+
 /// The names of the bodies, given or default.
 void read_names(const std::vector<YamlNode>& bodies, ReadContext& context) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -107,7 +166,11 @@ void read_bodies(const YamlNode& scene, ReadContext& context, ScenePlan& plan) {
     const YamlNode& section = bodies->items[i];
     BodyPlan body{.name = context.body_names[i], .span = section.span};
     if (const YamlEntry* mesh = section.find_entry("mesh")) body.span = mesh->key_span;
-    if (auto mesh = read_mesh(section, context)) body.mesh = std::move(*mesh);
+    if (auto read = read_mesh(section, context)) {
+      for (const YamlEntry& entry : section.find("data")->entries)
+        if (auto data = read_data(entry, *read, context)) body.data.push_back(std::move(*data));
+      body.mesh = std::move(read->mesh);
+    }
     if (const YamlNode* mass = section.find("mass")) read_mass(*mass, context, body);
     body.prepare = read_preparations(section, context);
     for (const YamlNode& initial : section.find("initial")->items)

@@ -13,12 +13,6 @@ namespace {
 
 using support::DiagnosticKind;
 
-const compile::ItemHead& head_of(const engine::NamedChange& change,
-                                 const compile::Program& program) {
-  if (change.operation) return program.operations[change.target];
-  return program.rules[change.target];
-}
-
 /// SI units in the unit in which a parameter is declared: a bare number is in that one.
 double scale_of(const engine::NamedChange& change, const std::string& parameter,
                 const check::RuleLibrary& library) {
@@ -45,6 +39,12 @@ const compile::Parameter* parameter_of(const YamlEntry& entry, const compile::It
 
 }  // namespace
 
+const compile::ItemHead& change_head(const engine::NamedChange& change,
+                                     const compile::Program& program) {
+  if (change.operation) return program.operations[change.target];
+  return program.rules[change.target];
+}
+
 std::optional<engine::NamedChange> read_change(const YamlNode& node, ReadContext& context) {
   const compile::Program& program = context.program;
   for (std::uint32_t i = 0; i < program.rules.size(); ++i)
@@ -58,25 +58,32 @@ std::optional<engine::NamedChange> read_change(const YamlNode& node, ReadContext
   return std::nullopt;
 }
 
+std::optional<std::pair<const compile::Parameter*, SceneExpression>> read_parameter(
+    const YamlEntry& entry, const engine::NamedChange& change, ReadContext& context) {
+  const compile::Parameter* parameter =
+      parameter_of(entry, change_head(change, context.program), context);
+  if (parameter == nullptr) return std::nullopt;
+  return std::pair{parameter,
+                   context.expression(entry.value,
+                                      {.type = parameter->type,
+                                       .unit = parameter->unit,
+                                       .unit_scale = scale_of(change, entry.key, context.library())})};
+}
+
 std::vector<std::pair<const compile::Parameter*, SceneExpression>> read_parameters(
     const YamlNode* params, const engine::NamedChange& change, ReadContext& context) {
   std::vector<std::pair<const compile::Parameter*, SceneExpression>> result;
   if (params == nullptr) return result;
-  const compile::ItemHead& item = head_of(change, context.program);
   for (const YamlEntry& entry : params->entries)
-    if (const compile::Parameter* parameter = parameter_of(entry, item, context))
-      result.emplace_back(
-          parameter, context.expression(entry.value, {.type = parameter->type,
-                                                      .unit = parameter->unit,
-                                                      .unit_scale = scale_of(change, entry.key,
-                                                                             context.library())}));
+    if (auto parameter = read_parameter(entry, change, context))
+      result.push_back(std::move(*parameter));
   return result;
 }
 
 void require_parameters(const std::vector<const compile::Parameter*>& given,
                         const engine::NamedChange& change, support::Span span,
                         ReadContext& context) {
-  const compile::ItemHead& item = head_of(change, context.program);
+  const compile::ItemHead& item = change_head(change, context.program);
   for (const compile::Parameter& parameter : item.parameters) {
     if (parameter.default_value || std::ranges::find(given, &parameter) != given.end()) continue;
     context.report(

@@ -13,6 +13,12 @@ namespace gmsim::scene {
 /// The rule or operation of this name.
 [[nodiscard]] std::optional<engine::NamedChange> read_change(const YamlNode& node,
                                                              ReadContext& context);
+/// What it is called and takes.
+[[nodiscard]] const compile::ItemHead& change_head(const engine::NamedChange& change,
+                                                   const compile::Program& program);
+/// The parameter that an entry of `params` gives.
+[[nodiscard]] std::optional<std::pair<const compile::Parameter*, SceneExpression>> read_parameter(
+    const YamlEntry& entry, const engine::NamedChange& change, ReadContext& context);
 /// The parameters that `params` gives.
 [[nodiscard]] std::vector<std::pair<const compile::Parameter*, SceneExpression>> read_parameters(
     const YamlNode* params, const engine::NamedChange& change, ReadContext& context);

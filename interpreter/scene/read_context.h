@@ -8,6 +8,7 @@
 
 #include "check/check.h"
 #include "compile/program.h"
+#include "scene/import_mesh.h"
 #include "scene/plan.h"
 #include "scene/validate.h"
 #include "scene/yaml_tree.h"
@@ -66,7 +67,7 @@ class ReadContext {
 
 // The parts of a scene, each in a file of its own. All report and leave out what is wrong.
 void read_bodies(const YamlNode& scene, ReadContext& context, ScenePlan& plan);
-[[nodiscard]] std::optional<gmap::Mesh> read_mesh(const YamlNode& body, ReadContext& context);
+[[nodiscard]] std::optional<ImportedMesh> read_mesh(const YamlNode& body, ReadContext& context);
 void read_interactions(const YamlNode& scene, ReadContext& context, ScenePlan& plan);
 [[nodiscard]] std::vector<Preparation> read_preparations(const YamlNode& body,
                                                          ReadContext& context);

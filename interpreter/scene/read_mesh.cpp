@@ -93,9 +93,9 @@ std::optional<Mesh> read_chain(const YamlNode& node, ReadContext& context) {
   return gmap::chain((*segments)[0], context.number(*node.find("length")));
 }
 
-std::optional<Mesh> read_file(const YamlNode& node, ReadContext& context) {
+std::optional<ImportedMesh> read_file(const YamlNode& node, ReadContext& context) {
   support::Diagnostics found;
-  auto mesh = import_mesh(context.folder / node.text, {.dimension = context.dimension()}, found);
+  auto mesh = import_mesh_with_data(context.folder / node.text, {.dimension = context.dimension()}, found);
   for (support::Diagnostic diagnostic : found.all()) {
     if (!diagnostic.place) diagnostic.place = node.span;
     context.diagnostics.report(std::move(diagnostic));
@@ -221,22 +221,28 @@ const YamlEntry* source_of(const YamlNode& mesh, ReadContext& context) {
   return nullptr;
 }
 
+std::optional<ImportedMesh> without_data(std::optional<Mesh> mesh) {
+  if (!mesh) return std::nullopt;
+  return ImportedMesh{std::move(*mesh), {}, {}};
+}
+
 }  // namespace
 
-std::optional<Mesh> read_mesh(const YamlNode& body, ReadContext& context) {
+std::optional<ImportedMesh> read_mesh(const YamlNode& body, ReadContext& context) {
   const YamlNode* node = body.find("mesh");
   if (node == nullptr) return std::nullopt;
   const YamlEntry* source = source_of(*node, context);
   if (source == nullptr) return std::nullopt;
   const YamlNode& value = source->value;
-  std::optional<Mesh> mesh = source->key == "grid"    ? read_grid(value, context)
-                             : source->key == "box"   ? read_box(value, context)
-                             : source->key == "chain" ? read_chain(value, context)
-                             : source->key == "file"  ? read_file(value, context)
-                                                      : read_points(*node, context);
-  if (const YamlNode* placing = body.find("place"); mesh && placing != nullptr)
-    place(*mesh, *placing, context);
-  return mesh;
+  std::optional<ImportedMesh> read =
+      source->key == "grid"    ? without_data(read_grid(value, context))
+      : source->key == "box"   ? without_data(read_box(value, context))
+      : source->key == "chain" ? without_data(read_chain(value, context))
+      : source->key == "file"  ? read_file(value, context)
+                               : without_data(read_points(*node, context));
+  if (const YamlNode* placing = body.find("place"); read && placing != nullptr)
+    place(read->mesh, *placing, context);
+  return read;
 }
 
 }  // namespace gmsim::scene

@@ -27,11 +27,10 @@ class TearReader {
       : section_(section), context_(context), program_(context.program) {}
 
   std::optional<engine::TearPairing> read() {
-    const YamlNode* action = section_.find("do");
-    const auto change =
-        action ? read_change(*action, context_) : std::optional<engine::NamedChange>{};
     tear_.where = condition(section_, context_);
-    if (!find_criterion()) return std::nullopt;
+    const bool known = find_criterion();
+    const auto change = find_change(known);
+    if (!known) return std::nullopt;
     read_threshold();
     tear_.after = context_.number(*section_.find("after"));
     tear_.refresh = section_.find("refresh")->text == "true";
@@ -40,8 +39,8 @@ class TearReader {
     read_nodes();
     if (!change) return std::nullopt;
     tear_.change = *change;
-    read_arguments(action->span);
-    (void)read_candidates(section_, *change, action->span, context_);
+    read_parameters_of_both();
+    (void)read_candidates(section_, *change, action_span(), context_);
     return std::move(tear_);
   }
 
@@ -60,6 +59,25 @@ class TearReader {
     return true;
   }
 
+  /// What `do` names, or else what the criterion applies by default.
+  std::optional<engine::NamedChange> find_change(bool criterion_known) {
+    if (const YamlNode* action = section_.find("do")) return read_change(*action, context_);
+    if (!criterion_known) return std::nullopt;
+    const auto& change = body().change;
+    if (change) return engine::NamedChange{change->operation, change->target};
+    context_.report(DiagnosticKind::MissingKey, tear_.span,
+                    fmt::format("`{}` applies nothing by default", criterion().name),
+                    "say with `do` which rule or operation is applied where it fires");
+    return std::nullopt;
+  }
+
+  [[nodiscard]] support::Span action_span() const {
+    const YamlNode* action = section_.find("do");
+    return action ? action->span : tear_.span;
+  }
+  [[nodiscard]] const compile::CriterionBody& body() const {
+    return program_.criterion_bodies[tear_.criterion];
+  }
   [[nodiscard]] const compile::RootedPattern& criterion() const {
     return program_.criteria[tear_.criterion];
   }
@@ -86,7 +104,8 @@ class TearReader {
     const auto& nodes = criterion().match.nodes;
     const YamlNode* at = section_.find("at");
     if (at == nullptr) {
-      tear_.at.push_back(criterion().match.hooks.at(0));
+      const bool by_default = section_.find("do") == nullptr && body().change;
+      tear_.at.push_back(by_default ? body().change->node : criterion().match.hooks.at(0));
       return;
     }
     for (const YamlNode& name : at->items) {
@@ -101,26 +120,73 @@ class TearReader {
     }
   }
 
-  /// Parameters of the change: from the scene, or else from the criterion's results by name.
-  void read_arguments(support::Span span) {
+  /// `params`: each goes to the criterion, to the change, or to both when both have one of its name.
+  /// What the change still lacks are results of the criterion.
+  void read_parameters_of_both() {
     std::vector<const compile::Parameter*> given;
-    for (auto& [parameter, value] :
-         read_parameters(section_.find("params"), tear_.change, context_)) {
-      given.push_back(parameter);
-      tear_.arguments.push_back({parameter->slot, std::nullopt, value.code});
+    if (const YamlNode* params = section_.find("params"))
+      for (const YamlEntry& entry : params->entries) read_parameter(entry, given);
+    add_results(given);
+    require_parameters(given, tear_.change, action_span(), context_);
+    for (const compile::Parameter& parameter : criterion().parameters) {
+      if (parameter.default_value || parameter.slot == tear_.threshold || is_given(parameter)) continue;
+      context_.report(DiagnosticKind::MissingKey, tear_.span,
+                      fmt::format("`{}` needs its parameter `{}`", criterion().name, parameter.name),
+                      "give it under `params`");
     }
-    const auto& results = program_.criterion_bodies[tear_.criterion].results;
-    const auto& parameters = tear_.change.operation
-                                 ? program_.operations[tear_.change.target].parameters
-                                 : program_.rules[tear_.change.target].parameters;
-    for (const compile::Parameter& parameter : parameters) {
+  }
+
+  void read_parameter(const YamlEntry& entry, std::vector<const compile::Parameter*>& given) {
+    const compile::ItemHead& change = change_head(tear_.change, program_);
+    const compile::Parameter* of_criterion = criterion().find_parameter(entry.key);
+    const compile::Parameter* of_change = change.find_parameter(entry.key);
+    if (of_criterion && of_criterion->slot == tear_.threshold) of_criterion = nullptr;
+    if (of_criterion) {
+      const auto& declared = context_.library().criteria[tear_.criterion].parameters;
+      const double scale = std::ranges::find(declared, entry.key, &check::Parameter::name)->unit_scale;
+      tear_.parameters.push_back(
+          {of_criterion->slot, context_.expression(entry.value, {.type = of_criterion->type,
+                                                                 .unit = of_criterion->unit,
+                                                                 .unit_scale = scale})
+                                   .code});
+    }
+    if (!of_change) {
+      if (!of_criterion) report_unknown_parameter(entry, change);
+      return;
+    }
+    if (auto argument = scene::read_parameter(entry, tear_.change, context_)) {
+      given.push_back(argument->first);
+      tear_.arguments.push_back({argument->first->slot, std::nullopt, argument->second.code});
+    }
+  }
+
+  void report_unknown_parameter(const YamlEntry& entry, const compile::ItemHead& change) {
+    std::vector<std::string> names = names_of(change.parameters);
+    for (const compile::Parameter& parameter : criterion().parameters)
+      if (parameter.slot != tear_.threshold) names.push_back(parameter.name);
+    const std::string guess = support::did_you_mean(entry.key, names);
+    context_.report(DiagnosticKind::UnknownName, entry.key_span,
+                    fmt::format("neither `{}` nor `{}` has a parameter `{}`", criterion().name,
+                                change.name, entry.key),
+                    !guess.empty()  ? guess
+                    : names.empty() ? "they have none"
+                                    : fmt::format("they have `{}`", fmt::join(names, "`, `")));
+  }
+
+  [[nodiscard]] bool is_given(const compile::Parameter& parameter) const {
+    return std::ranges::find(tear_.parameters, parameter.slot, &engine::SlotValue::slot) !=
+           tear_.parameters.end();
+  }
+
+  void add_results(std::vector<const compile::Parameter*>& given) {
+    const auto& results = body().results;
+    for (const compile::Parameter& parameter : change_head(tear_.change, program_).parameters) {
       const auto result = std::ranges::find(results, parameter.name, &compile::BodyResult::name);
       if (result == results.end() || std::ranges::find(given, &parameter) != given.end()) continue;
       given.push_back(&parameter);
       tear_.arguments.push_back(
           {parameter.slot, static_cast<std::uint32_t>(result - results.begin()), {}});
     }
-    require_parameters(given, tear_.change, span, context_);
   }
 
   const YamlNode& section_;

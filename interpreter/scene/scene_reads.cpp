@@ -47,6 +47,7 @@ class Reads {
   }
   void add(const BodyPlan& body) {
     add(body.mass_of_vertex.code);
+    for (const MeshData& data : body.data) add_read(data.embedding, schema_, ids_);
     for (const Preparation& preparation : body.prepare) {
       add(preparation.change);
       add(preparation.where.code);

@@ -77,8 +77,8 @@ std::vector<Kind> statement_words(ItemKind item) {
       return {token::MATCH, token::PARAM, token::LET,    token::ENERGY,
               token::FORCE, token::FIRST, token::RESULT, token::DIMENSION};
     case ItemKind::Criterion:
-      return {token::MATCH, token::LET,    token::WHERE,
-              token::VALUE, token::RESULT, token::DIMENSION};
+      return {token::MATCH, token::PARAM,  token::LET,   token::WHERE,
+              token::VALUE, token::RESULT, token::APPLY, token::DIMENSION};
     case ItemKind::Operation:
       return {token::LET, token::PARAM, token::FOR, token::IF, token::APPLY, token::DIMENSION};
   }

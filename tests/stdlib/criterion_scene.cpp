@@ -5,7 +5,9 @@
 
 namespace gmsim::test {
 
-CriterionScene::CriterionScene(const std::string& text, const std::string& rules) {
+CriterionScene::CriterionScene(const std::string& text, const std::string& rules,
+                               const Files& files) {
+  for (const auto& [name, content] : files) folder_.write(name, content);
   if (!rules.empty()) folder_.write("my.rule", rules);
   loaded_ = std::make_unique<LoadedScene>(folder_.write("scene.yaml", text));
   if (!loaded_->scene) throw std::runtime_error(said());

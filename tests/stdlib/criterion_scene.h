@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/simulation.h"
@@ -14,7 +15,9 @@ namespace gmsim::test {
 /// under `rules: [./my.rule]`. Throws std::runtime_error with what the program says.
 class CriterionScene {
  public:
-  explicit CriterionScene(const std::string& text, const std::string& rules = "");
+  using Files = std::vector<std::pair<std::string, std::string>>;  ///< name and text
+  explicit CriterionScene(const std::string& text, const std::string& rules = "",
+                          const Files& files = {});
 
   [[nodiscard]] engine::Simulation& simulation() { return *simulation_; }
   [[nodiscard]] scene::Scene& scene() { return *loaded_->scene; }
@@ -23,6 +26,8 @@ class CriterionScene {
   [[nodiscard]] std::vector<double> ratios();
   /// One step of the scene.
   engine::StepReport step();
+  /// Of a stored number over all its orbits.
+  [[nodiscard]] double sum(const std::string& embedding) const { return loaded_->sum(embedding); }
   [[nodiscard]] std::string said() const { return loaded_->rendered(); }
 
  private:

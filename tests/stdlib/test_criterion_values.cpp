@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <span>
 
@@ -229,6 +231,97 @@ TEST_CASE("the traction of springs is the change of their energy with a stretch 
     CAPTURE(pair.cells[1].size());
     REQUIRE(values.size() == 1);
     CHECK(values[0] == doctest::Approx(expected).epsilon(1e-7));
+  }
+}
+
+
+// ---- given forces -------------------------------------------------------------------------------
+
+constexpr const char* kGivenForce =
+    "interaction given on corner(a) { param f : vec3 [N]; force a on corner = f; }\n";
+
+/// The edge from A to B between the faces ABC and BAD; two more faces at A and B only. Reference: a computation of
+/// eqs. 3 to 5 apart from this program.
+std::string edge_of_two_faces(double sign1, double sign2, const std::string& criterion) {
+  const auto face = [](const Vector& x) { return "norm(centroid(a) - " + text(x) + ") < 1e-6"; };
+  const std::string at_a = "norm(position - (0.1, 0, 0)) < 1e-6", at_b = "norm(position - (0, 1, 0.2)) < 1e-6";
+  const Vector face1 = {-0.8 / 3, 1.4 / 3, 0.5 / 3}, face2 = {0.3, 0.5, 0.2};
+  const std::string force = fmt::format(
+      "if {0} then {1} * (if {2} then (-0.3, 0.02, 0.05) else if {3} then (-0.25, -0.04, 0.1) else (0, 0, 0)) "
+      "else if {4} then {5} * (if {2} then (0.28, 0.01, 0.08) else if {3} then (0.35, 0.03, -0.02) else (0, 0, 0)) "
+      "else if {2} then (0.05, -0.02, 0.01) else if {3} then (-0.04, 0.06, 0.02) else (0, 0, 0)",
+      face(face1), sign1, at_a, at_b, face(face2), sign2);
+  return fmt::format(
+      "dimension: 2\nrules: [criteria, tear, ./my.rule]\nbodies:\n  - mass: 1\n"
+      "    mesh: {{ points: [[0.1,0,0], [0,1,0.2], [-0.9,0.4,0.3], [0.8,0.5,0.4], [-0.5,-0.6,0.2], [-0.7,1.3,0.1]], "
+      "cells: [[0,1,2], [1,0,3], [0,2,4], [1,5,2]] }}\n"
+      "    interactions: {{ given: {{ f: \"{}\" }} }}\n"
+      "tear: [ {{ when: {}, threshold: \"if norm(0.5 * (a.position + a@0.position) - (0.05, 0.5, 0.1)) < 1e-9 "
+      "then 1 else 1e9\" }} ]\nintegrator: {{ dt: 1e-3 }}\nduration: 1\n",
+      force, criterion);
+}
+
+/// The value at that edge, or none when it does not count.
+std::optional<double> edge_value(double sign1, double sign2, const std::string& criterion) {
+  const auto ratios = CriterionScene(edge_of_two_faces(sign1, sign2, criterion), kGivenForce).ratios();
+  const auto largest = std::max_element(ratios.begin(), ratios.end());
+  return largest != ratios.end() && *largest > 1e-6 ? std::optional(*largest) : std::nullopt;
+}
+
+TEST_CASE("given forces: eqs. 4 and 5 at an edge, pulled, pushed and both") {
+  const auto equals = [](double value) { return doctest::Approx(value).epsilon(1e-12); };
+  CHECK(edge_value(1, 1, "atomic_facet_force").value() == equals(1.16759900448426));
+  CHECK(!edge_value(1, -1, "atomic_facet_force"));
+  CHECK(!edge_value(-1, -1, "atomic_facet_force"));
+  CHECK(edge_value(1, 1, "global_facet_force").value() == equals(0.11635459612160139));
+  CHECK(edge_value(1, -1, "global_facet_force").value() == equals(1.151670791029196));
+  CHECK(edge_value(-1, -1, "global_facet_force").value() == equals(0.08449816921146953));
+}
+
+TEST_CASE("springs of two moving quads: eqs. 4 and 5 at their edge") {
+  const Points rest = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  const Points x = {{0, 0.03, 0},
+                    {1.316829419696158, -0.012484405096414271, 0.007056000402993361},
+                    {2.6181859485365138, -0.01960930862590836, -0.013970774909946294},
+                    {0.002822400161197344, 1.078805108599511, 0.020605924262087832},
+                    {1.2848639500938415, 1.0456349989857416, -0.02682864590002175},
+                    {2.5808215145067375, 1.0248278541277065, 0.032514392007855844}};
+  const Points v = {{0.1, 0, 0},
+                    {0.05403023058681398, 0.04546487134128409, 0.02},
+                    {-0.04161468365471424, -0.037840124765396416, 0.04},
+                    {-0.09899924966004454, -0.013970774909946294, 0.06},
+                    {-0.06536436208636119, 0.049467912331169095, 0.08},
+                    {0.028366218546322625, -0.02720105554446849, 0.1}};
+  std::string initial;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    initial += fmt::format("{{ where: \"norm(position - {}) < 0.1\", position: \"{}\", velocity: \"{}\" }}, ",
+                           text(rest[k]), text(x[k]), text(v[k]));
+  const auto value = [&](const std::string& criterion) {
+    return CriterionScene(
+               fmt::format("dimension: 2\nrules: [springs, criteria, tear]\nbodies:\n"
+                           "  - mesh: {{ grid: {{ patches: [2, 1], size: [2, 1] }} }}\n    mass: 1\n"
+                           "    interactions:\n      stretch_spring: {{ stiffness: 60, damping: 0.1 }}\n"
+                           "      linear_shear_spring: {{ stiffness: 43, damping: 0.1 }}\n"
+                           "      linear_bending_spring: {{ stiffness: 10, damping: 0.1 }}\n"
+                           "    initial: [ {} ]\n"
+                           "tear: [ {{ when: {}, threshold: 1 }} ]\nintegrator: {{ dt: 1e-4 }}\nduration: 1\n",
+                           initial, criterion))
+        .ratios()
+        .at(0);
+  };
+  CHECK(value("atomic_facet_force") == doctest::Approx(106.17443107234436).epsilon(1e-11));
+  CHECK(value("global_facet_force") == doctest::Approx(0.17261332547988448).epsilon(1e-11));
+}
+
+TEST_CASE("two faces folded flat onto each other have no direction: nothing tears") {
+  for (const std::string criterion : {"atomic_facet_force", "global_facet_force", "facet_traction"}) {
+    CriterionScene scene(fmt::format(
+        "dimension: 2\nrules: [springs, criteria, tear]\nbodies:\n"
+        "  - mesh: {{ points: [[0,0,0], [0,1,0], [1,0.5,0], [1,0.5,0]], cells: [[0,1,2], [1,0,3]] }}\n    mass: 1\n"
+        "    interactions: {{ stretch_spring: {{ stiffness: 60, rest: 0.5 }} }}\n"
+        "tear: [ {{ when: {}, threshold: 1e-6 }} ]\nintegrator: {{ dt: 1e-4 }}\nduration: 1\n", criterion));
+    CHECK(scene.step().events.empty());
+    for (const double ratio : scene.ratios()) CHECK(ratio == 0);
   }
 }
 

@@ -160,6 +160,82 @@ def output_changes_nothing():
     check("runs that differ because frames were written more often", int(ends[0] != ends[1]), 0)
 
 
+def tearing_cloth(turn=np.eye(3), scale=1.0, tear=None, n=3, cells="quads", order=None, stretch=1, **more):
+    """A hanging cloth that tears. `scale` changes the unit of length and of whatever holds one, `order` (a seed) the
+    order and the walking direction of its faces and the order in which interactions are declared."""
+    scene = cloth(turn=turn, n=n, cells=cells, dt=1e-3, every=more.pop("every", 0.05), **more)
+    body = scene["bodies"][0]
+    body["mesh"]["points"] = (scale * np.array(body["mesh"]["points"])).tolist()
+    scene["gravity"] = [scale * g for g in scene["gravity"]]
+    scene["fix"] = [{"where": " or ".join(
+        f"norm(position - ({x!r}, {y!r}, {z!r})) < {1e-3 * scale!r}"
+        for x, y, z in [body["mesh"]["points"][k] for k in (n * (n + 1), n * (n + 2))])}]
+    body["initial"] = [{"position": f"{stretch} * position"}]
+    scene["rules"] += ["criteria", "tear"]
+    scene["tear"] = [dict(line, threshold=line["threshold"] * (scale if line.pop("is_force") else 1))
+                     for line in map(dict, tear)]
+    if order is not None:
+        random = np.random.default_rng(order)
+        faces = [face[::-1] if random.random() < 0.5 else face for face in body["mesh"]["cells"]]
+        faces = [np.roll(face, random.integers(len(face))).tolist() for face in faces]
+        body["mesh"]["cells"] = [faces[k] for k in random.permutation(len(faces))]
+        body["interactions"] = dict(reversed(body["interactions"].items()))
+        scene["tear"] = scene["tear"][::-1]
+    return scene
+
+
+def tears(path):
+    """(step, place) of everything that tore, the ties of a step in an order of their own."""
+    with h5py.File(path) as file:
+        events = file["gmsim/events"]
+        return [(int(event["step"]), np.array(event["position"], float)) for event in events[:]]
+
+
+def same_tears(name, got, wanted, back=lambda x: x, within=1e-7):
+    """The same steps, and in each the same places, whatever the order of ties."""
+    steps = [step for step, _ in got] == [step for step, _ in wanted]
+    distance = math.inf
+    if steps:
+        distance = 0.0
+        for step in {step for step, _ in wanted}:
+            left = [back(x) for s, x in got if s == step]
+            for place in (x for s, x in wanted if s == step):
+                nearest = min(range(len(left)), key=lambda k: np.abs(left[k] - place).max())
+                distance = max(distance, np.abs(left.pop(nearest) - place).max())
+    check(f"{name}: {len(wanted)} tears, same steps, places apart by", distance, within)
+    return steps
+
+
+EQ4 = [{"when": "atomic_facet_force", "threshold": 0.5, "is_force": True, "do": "separate_elements"}]
+SEVERAL = [{"when": "facet_traction", "threshold": 22, "is_force": False, "do": "separate_elements"},
+           {"when": "spring_elongation", "threshold": 1.12, "is_force": False, "do": "split_edge_ends"},
+           {"when": "vertex_force", "threshold": 2, "is_force": True, "do": "split_vertex", "at_most": 2}]
+
+
+def tears_alike():
+    """Quads by one criterion, which has independent references, and triangles by several."""
+    for name, tear, cells, n, stretch in (("eq. 4", EQ4, "quads", 3, 1), ("several", SEVERAL, "triangles", 4, 1.1)):
+        build = lambda **more: tearing_cloth(tear=tear, cells=cells, n=n, stretch=stretch, duration=0.6, **more)
+        path, _ = run("tears", build())
+        wanted, end = tears(path), points(path)
+        check(f"{name}: scenes that never tear", int(len(wanted) == 0), 0)
+        turn = rotation((1, 2, 3), 1.1)
+        same_tears(f"{name}, turned", tears(run("tears_turned", build(turn=turn))[0]), wanted, lambda x: x @ turn)
+        same_tears(f"{name}, in millimetres", tears(run("tears_mm", build(scale=1000.0))[0]), wanted,
+                   lambda x: x / 1000)
+        same_tears(f"{name}, two threads", tears(run("tears_2", build(), extra=("--threads", "2"))[0]), wanted,
+                   within=0)
+        same_tears(f"{name}, frames at other times", tears(run("tears_often", build(every=0.007))[0]), wanted,
+                   within=0)
+        for order in (1, 2):
+            path, _ = run("tears_order", build(order=order))
+            check(f"{name}, declared in order {order}: steps that differ",
+                  int([step for step, _ in tears(path)] != [step for step, _ in wanted]), 0)
+            apart = np.abs(points(path)[:, None] - end[None]).max(axis=2)
+            check(f"{name}, declared in order {order}: particles at the end apart by",
+                  max(apart.min(axis=0).max(), apart.min(axis=1).max()), 1e-6)
+
+
 def above_the_limit():
     path, text = run("unstable", cloth(dt=0.1, method="rk4"), expect=2)
     words = [word for word in ("0.1", "limit", "_spring` at vertex") if word not in text]
@@ -181,6 +257,7 @@ for name in ("symplectic_euler", "velocity_verlet", "rk4", "bogacki_shampine", "
 twice()
 output_changes_nothing()
 above_the_limit()
+tears_alike()
 energy(20000, 1e-3, 7.4e-4)
 if SLOW:
     energy(100000, 1e-3, 7.5e-4)
