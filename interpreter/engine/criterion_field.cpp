@@ -171,6 +171,7 @@ CriterionField::Diagnostic CriterionField::judge_part(Part& part, std::uint32_t 
   }
   for (std::uint32_t row = 0; row < count; ++row) {
     const double value = part.values[row], threshold = part.thresholds[row];
+    if (value == 0 && threshold == 0) continue;  // the criterion's conditions do not hold there
     if (keep_ratios_) ratios_.push_back(value / threshold);
     if (nearest_.where == gmap::kNoDart ||
         value / threshold > nearest_.value / nearest_.threshold)

@@ -315,6 +315,7 @@ TEST_CASE("springs of two moving quads: eqs. 4 and 5 at their edge") {
 
 TEST_CASE("two faces folded flat onto each other have no direction: nothing tears") {
   for (const std::string criterion : {"atomic_facet_force", "global_facet_force", "facet_traction"}) {
+    CAPTURE(criterion);
     CriterionScene scene(fmt::format(
         "dimension: 2\nrules: [springs, criteria, tear]\nbodies:\n"
         "  - mesh: {{ points: [[0,0,0], [0,1,0], [1,0.5,0], [1,0.5,0]], cells: [[0,1,2], [1,0,3]] }}\n    mass: 1\n"
