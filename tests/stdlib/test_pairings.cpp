@@ -33,7 +33,7 @@ const std::vector<Body>& bodies() {
       {"triangles", 2, "{ grid: { patches: [2, 2], cells: triangles } }"},
       {"quads and triangles", 2, "{ grid: { patches: [3, 2], cells: mix4 } }"},
       {"tetrahedra", 3, "{ box: { cells: [1, 1, 1], elements: tets6 } }"},
-      {"hexahedra", 3, "{ box: { cells: [2, 2, 1], elements: hexes } }"},
+      {"hexahedra", 3, "{ box: { cells: [2, 2, 2], elements: hexes } }"},
       {"a hexahedron under a pyramid, beside it a prism under a tetrahedron", 3,
        "{ points: [[0,0,0], [1,0,0], [1,1,0], [0,1,0], [0,0,1], [1,0,1], [1,1,1], [0,1,1], [0.5,0.4,2], "
        "[2,0.5,0], [2,0.5,1], [1.5,0.5,2]], "
