@@ -61,8 +61,8 @@ TEST_CASE("a misspelt word is reported with the words that may stand there") {
          "`result`, `dimension` or `}`",
          "did you mean `energy`?"});
   check({"criterion c on face(a) { «valeu» 3; }", kSyntax,
-         "unexpected name `valeu`; expected `match`, `let`, `where`, `value`, `result`, "
-         "`dimension` or `}`",
+         "unexpected name `valeu`; expected `match`, `param`, `let`, `where`, `value`, `result`, "
+         "`apply`, `dimension` or `}`",
          "did you mean `value`?"});
   check({"operation o on face(a) { «aply» r(a); }", kSyntax,
          "unexpected name `aply`; expected `let`, `param`, `for`, `if`, `apply`, `dimension`, "
