@@ -10,8 +10,9 @@ namespace gmsim::compile {
 
 namespace {
 
-/// Walks tried before a match is looked at in full: the shapes of an item in a regular mesh.
-constexpr std::size_t kMostFastWays = 4;
+/// Walks tried before a match is looked at in full: those of a regular mesh, whose elements have
+/// numbered their darts in a few different orders.
+constexpr std::size_t kMostFastWays = 12;
 
 }  // namespace
 
@@ -34,20 +35,15 @@ ShapeSet::~ShapeSet() = default;
 std::optional<std::uint32_t> ShapeSet::classify(std::span<const DartId> nodes, MatchRoles& out) {
   for (FastWay& way : fast_) {
     if (!way.walks.run(world_, nodes, out)) continue;
-    out.straight = true;
     out.walked = way.walks.darts();
+    out.everywhere = false;
     return way.shape;
   }
-  const auto note_walks = [&](std::optional<WalkProgram>& walks) {
-    MatchRoles again;
-    out.straight = walks && walks->run(world_, nodes, again);
-    out.walked = out.straight ? walks->darts() : std::vector<DartId>{};
-  };
+  specialiser_.walker_->record_walks(fast_.size() < kMostFastWays);
   if (!shapes_.empty()) {
     if (!specialiser_.trace(nodes, out)) return std::nullopt;
     if (const auto known = by_key_.find(out.key); known != by_key_.end()) {
-      auto walks = specialiser_.walker_->trace().take();
-      note_walks(walks);
+      add_fast_way(known->second);
       return known->second;
     }
   }
@@ -56,10 +52,13 @@ std::optional<std::uint32_t> ShapeSet::classify(std::span<const DartId> nodes, M
   const auto number = static_cast<std::uint32_t>(shapes_.size());
   by_key_.emplace(out.key, number);
   shapes_.push_back(std::move(shape));
-  auto walks = specialiser_.walker_->trace().take();
-  note_walks(walks);
-  if (walks && fast_.size() < kMostFastWays) fast_.push_back({std::move(*walks), number});
+  add_fast_way(number);
   return number;
+}
+
+void ShapeSet::add_fast_way(std::uint32_t shape) {
+  auto walks = specialiser_.walker_->trace().take();
+  if (walks && fast_.size() < kMostFastWays) fast_.push_back({std::move(*walks), shape});
 }
 
 }  // namespace gmsim::compile

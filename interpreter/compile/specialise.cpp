@@ -87,6 +87,7 @@ bool Specialiser::run(std::span<const DartId> nodes, MatchRoles& out, Shape* sha
   walker.start(nodes, graph);
   const SymbolicValue condition = walker.conditions();
   if (condition.known && condition.number == 0.0 && !walker.failed()) {
+    walker.take_walked(out);
     failure_ = excluded(walker.body());
     return false;
   }
@@ -107,6 +108,7 @@ bool Specialiser::run(std::span<const DartId> nodes, MatchRoles& out, Shape* sha
     shape->values = std::move(values);
     shape->draws = walker.draws();
   }
+  walker.take_walked(out);
   if (walker.failed()) {
     failure_ = walker.take_failure();
     return false;

@@ -87,10 +87,11 @@ struct MatchRoles {
   std::vector<DartId> targets;  ///< the dart of each force target
   std::vector<std::uint32_t> atomic = {};  ///< atomic forces that the match goes through one by one
   std::vector<std::uint32_t> key;
-  /// From ShapeSet::classify: does the match rest on links and coincidences alone? Then `walked` are
-  /// all darts on which its roles and its shape depend, the nodes included.
-  bool straight = false;
+  /// All darts on whose links its roles and its shape depend, the nodes included, perhaps several
+  /// times; after a failure those on which that depends. Not complete when the match rests on a
+  /// collection of the whole map: `everywhere`.
   std::vector<DartId> walked = {};
+  bool everywhere = false;
 };
 
 /// Why there is no program for a match.
@@ -156,7 +157,7 @@ class ShapeSet {
   ShapeSet& operator=(const ShapeSet&) = delete;
 
   /// The number of the match's shape, built when it is new, and its roles (`out.key` is left
-  /// alone on the fast path). Empty: see failure().
+  /// alone on the fast path). Empty: see failure(), and `out.walked` still holds.
   std::optional<std::uint32_t> classify(std::span<const DartId> nodes, MatchRoles& out);
   [[nodiscard]] const SpecialiseFailure& failure() const { return specialiser_.failure(); }
   [[nodiscard]] std::size_t size() const { return shapes_.size(); }
@@ -167,6 +168,7 @@ class ShapeSet {
     std::size_t operator()(const std::vector<std::uint32_t>& key) const;
   };
   struct FastWay;  // a walk program and the shape it leads to
+  void add_fast_way(std::uint32_t shape);
 
   const World& world_;
   Specialiser specialiser_;

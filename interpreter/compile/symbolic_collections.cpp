@@ -41,18 +41,27 @@ void SymbolicWalker::darts(const Expr& expr, std::vector<DartRef>& out) {
         out.push_back(at);
         return;
       }
+      depend(expr.orbit, at.dart);
       gmap::for_each_dart(world_.map, expr.orbit, at.dart, append);
       std::sort(out.begin(), out.end(),
                 [](const DartRef& a, const DartRef& b) { return a.dart < b.dart; });
+      trace_orbit(expr.orbit, at, out);
       break;
     }
     case ExprKind::Quotient: {
       const DartRef at = dart(*expr.args[0]);
       if (failed()) return;
+      gmap::for_each_dart(world_.map, expr.orbit, at.dart, [&](DartId d) {
+        depend(d);
+        if (!expr.orbit.contains(expr.orbit2)) depend(expr.orbit2, d);
+      });
       for (const DartId d : gmap::quotient(world_.map, expr.orbit, expr.orbit2, at.dart)) append(d);
+      trace_quotient(expr.orbit, expr.orbit2, at, out);
       break;
     }
     case ExprKind::AllOrbits:
+      everywhere_ = true;
+      trace_.spoil();
       for (const DartId d : gmap::all_orbits(world_.map, expr.orbit)) append(d);
       break;
     default:
@@ -60,7 +69,60 @@ void SymbolicWalker::darts(const Expr& expr, std::vector<DartRef>& out) {
       return;
   }
   decide(static_cast<std::uint32_t>(out.size()));
-  trace_.spoil();
+}
+
+/// Walks to all darts of an orbit, breadth first.
+std::vector<DartRef> SymbolicWalker::traced_orbit(OrbitType type, DartRef at) {
+  std::vector<DartRef> found{at};
+  for (std::size_t k = 0; k < found.size() && trace_.straight(); ++k) {
+    for (int i = 0; i <= world_.map.dimension(); ++i) {
+      if (!type.contains(i)) continue;
+      const DartRef next{world_.map.alpha(i, found[k].dart), trace_.follow(found[k].walk, i)};
+      const auto known = std::find_if(found.begin(), found.end(), [&](const DartRef& other) {
+        return other.dart == next.dart;
+      });
+      if (known != found.end()) {
+        trace_.test(next.walk, known->walk, true);
+        continue;
+      }
+      for (const DartRef& other : found) trace_.test(next.walk, other.walk, false);
+      found.push_back(next);
+    }
+  }
+  return found;
+}
+
+/// Gives ascending members of a traced orbit their walks; that they ascend decides.
+void SymbolicWalker::trace_orbit(OrbitType type, DartRef at, std::vector<DartRef>& members) {
+  if (!trace_.straight()) return;
+  const std::vector<DartRef> walked = traced_orbit(type, at);
+  if (!trace_.straight()) return;
+  for (DartRef& member : members)
+    member.walk = std::find_if(walked.begin(), walked.end(), [&](const DartRef& other) {
+                    return other.dart == member.dart;
+                  })->walk;
+  for (std::size_t k = 1; k < members.size(); ++k)
+    trace_.older(members[k - 1].walk, members[k].walk);
+}
+
+void SymbolicWalker::trace_quotient(OrbitType outer, OrbitType inner, DartRef at,
+                                    std::vector<DartRef>& members) {
+  if (!trace_.straight()) return;
+  std::vector<DartRef> all;
+  gmap::for_each_dart(world_.map, outer, at.dart, [&](DartId d) { all.push_back({d, kNoWalk}); });
+  std::sort(all.begin(), all.end(),
+            [](const DartRef& a, const DartRef& b) { return a.dart < b.dart; });
+  trace_orbit(outer, at, all);
+  if (!trace_.straight()) return;
+  for (DartRef& member : members) {
+    member.walk = std::find_if(all.begin(), all.end(), [&](const DartRef& other) {
+                    return other.dart == member.dart;
+                  })->walk;
+    if (outer.contains(inner)) continue;
+    // Which darts of the outer orbit it stands for is not decided by links within that orbit.
+    for (const DartRef& met : traced_orbit(inner, member))
+      for (const DartRef& dart : all) trace_.test(met.walk, dart.walk, met.dart == dart.dart);
+  }
 }
 
 void SymbolicWalker::polygon(const Expr& expr, std::vector<DartRef>& out) {
@@ -68,12 +130,17 @@ void SymbolicWalker::polygon(const Expr& expr, std::vector<DartRef>& out) {
   if (failed()) return;
   const auto corners = gmap::polygon(world_.map, at.dart);
   if (!corners) {
+    depend(OrbitType{0, 1}, at.dart);
     fail(DiagnosticKind::OpenFace, expr.span,
          fmt::format("the face of dart {} is open: it has no boundary to go around",
                      types::index(at.dart)));
     return;
   }
-  for (const DartId d : *corners) out.push_back({d, kNoWalk});
+  for (const DartId d : *corners) {
+    out.push_back({d, kNoWalk});
+    depend(d);
+    depend(world_.map.alpha(0, d));
+  }
   trace_polygon(at, out);
   decide(static_cast<std::uint32_t>(out.size()));
 }

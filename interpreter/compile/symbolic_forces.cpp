@@ -34,7 +34,8 @@ SymbolicValue SymbolicWalker::atomic_forces(const Expr& expr) {
   std::vector<std::uint32_t> rows;
   world_.atomic_forces->list(expr.orbit, at.dart, rows);
   decide(static_cast<std::uint32_t>(rows.size()));
-  trace_.spoil();
+  depend(expr.orbit, at.dart);
+  trace_.list(expr.orbit, at.walk, static_cast<std::uint32_t>(rows.size()));
   auto numbers = std::make_shared<std::vector<std::uint32_t>>();
   for (const std::uint32_t row : rows) {
     numbers->push_back(static_cast<std::uint32_t>(atomic_.size()));

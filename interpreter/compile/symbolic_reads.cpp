@@ -45,6 +45,7 @@ SymbolicValue SymbolicWalker::constant(const types::ValueType& type,
 void SymbolicWalker::fail_missing(const Expr& reader, EmbeddingId id, DartId dart) {
   const gmap::EmbeddingDecl& decl = world_.schema[id];
   if (failed()) return;
+  depend(decl.orbit, dart);
   fail(DiagnosticKind::MissingEmbeddingValue, reader.span,
        fmt::format("`{}` has no value at the {} orbit of dart {}", decl.name,
                    types::to_string(decl.orbit), types::index(dart)),
@@ -68,6 +69,7 @@ bool SymbolicWalker::carries_interaction(EmbeddingId parameter, DartRef at) {
   const std::optional<EmbeddingId> mark = presences_[types::index(parameter)];
   if (!mark || !world_.store.in_use(*mark)) return true;
   const std::span<const double> value = world_.store.get(*mark, at.dart);
+  depend(world_.schema[*mark].orbit, at.dart);
   trace_.spoil();
   return !value.empty() && value[0] != 0.0;
 }
@@ -134,6 +136,7 @@ SymbolicValue SymbolicWalker::expand(const ValueSource& source, DartRef at, Orbi
     frame_ = &inner;
     const bool move = source.frame == ValueSource::Frame::SmallestDart && !orbit.empty();
     if (move) {  // so that the last bit does not depend on which dart asks
+      depend(orbit, at.dart);
       at = {gmap::smallest_dart(world_.map, orbit, at.dart), kNoWalk};
       trace_.spoil();
     }
@@ -168,6 +171,7 @@ SymbolicValue SymbolicWalker::has(const Expr& expr) {
   }
   if (!world_.store.in_use(expr.embedding)) return SymbolicValue::of(1.0);
   const std::span<const double> value = world_.store.get(expr.embedding, at.dart);
+  depend(world_.schema[expr.embedding].orbit, at.dart);
   trace_.spoil();
   return outcome(!value.empty() && (!mark || value[0] != 0.0));
 }

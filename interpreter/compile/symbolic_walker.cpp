@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "compile/value_parts.h"
+#include "gmap/orbit_walk.h"
 #include "support/check.h"
 
 namespace gmsim::compile {
@@ -29,10 +30,12 @@ void SymbolicWalker::start(std::span<const DartId> nodes, ir::Graph* graph) {
   GMSIM_CHECK(nodes.size() == body_.nodes.size(), "one dart for each node of the pattern");
   graph_ = graph;
   roles_.clear();
-  trace_.start(static_cast<std::uint32_t>(nodes.size()));
+  trace_.start(static_cast<std::uint32_t>(nodes.size()), record_walks_);
   key_.clear();
   draws_.clear();
   atomic_.clear();
+  walked_.assign(nodes.begin(), nodes.end());
+  everywhere_ = false;
   positions_.clear();
   differentiated_.clear();
   failure_.reset();
@@ -52,6 +55,15 @@ void SymbolicWalker::start(std::span<const DartId> nodes, ir::Graph* graph) {
     pending.kind = Cell::Kind::PendingLet;
     pending.let = step.value.get();
   }
+}
+
+void SymbolicWalker::depend(OrbitType orbit, DartId dart) {
+  gmap::for_each_dart(world_.map, orbit, dart, [&](DartId d) { depend(d); });
+}
+
+void SymbolicWalker::take_walked(MatchRoles& out) {
+  out.walked.swap(walked_);
+  out.everywhere = everywhere_;
 }
 
 void SymbolicWalker::bind(Slot slot, DartRef dart) { bind(slot, SymbolicValue::of(dart)); }
@@ -175,6 +187,7 @@ SymbolicValue SymbolicWalker::link_question(const Expr& expr) {
   DartRef b;
   if (expr.kind == ExprKind::Free) {
     b = {world_.map.alpha(expr.number, a.dart), trace_.follow(a.walk, expr.number)};
+    depend(b.dart);
   } else {
     b = dart(*expr.args[1]);
   }
@@ -199,10 +212,13 @@ DartRef SymbolicWalker::dart(const Expr& expr) {
     case ExprKind::Alpha: {
       const DartRef from = dart(*expr.args[0]);
       if (failed()) return from;
-      return {world_.map.alpha(expr.number, from.dart), trace_.follow(from.walk, expr.number)};
+      const DartId to = world_.map.alpha(expr.number, from.dart);
+      depend(to);
+      return {to, trace_.follow(from.walk, expr.number)};
     }
     case ExprKind::Literal: {
       trace_.spoil();
+      depend(expr.value.dart);
       if (!world_.map.alive(expr.value.dart)) {
         fail(DiagnosticKind::NoMatch, expr.span,
              fmt::format("dart {} is no longer part of the map", types::index(expr.value.dart)));

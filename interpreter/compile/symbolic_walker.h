@@ -27,6 +27,8 @@ class SymbolicWalker {
 
   /// Begins a match; `graph` null: roles and decisions only.
   void start(std::span<const DartId> nodes, ir::Graph* graph);
+  /// Are the walks of the next matches worth recording?
+  void record_walks(bool record) { record_walks_ = record; }
 
   [[nodiscard]] SymbolicValue evaluate(const types::Expr& expr);
   [[nodiscard]] DartRef dart(const types::Expr& expr);
@@ -53,6 +55,8 @@ class SymbolicWalker {
   [[nodiscard]] std::vector<std::uint32_t> take_key() { return std::move(key_); }
   [[nodiscard]] const std::vector<Draw>& draws() const { return draws_; }
   [[nodiscard]] std::vector<std::uint32_t> take_atomic() { return std::move(atomic_); }
+  /// MatchRoles::walked and `everywhere`.
+  void take_walked(MatchRoles& out);
   /// By role: the input node of its position, kNone when it was not read.
   [[nodiscard]] const std::vector<ir::NodeId>& positions() const { return positions_; }
   /// What grad() was asked of: numbers whose derivatives are there already.
@@ -74,6 +78,9 @@ class SymbolicWalker {
   using Frame = std::vector<Cell>;
 
   // symbolic_walker.cpp
+  /// The match depends on the links of this dart, or of all darts of an orbit.
+  void depend(DartId dart) { walked_.push_back(dart); }
+  void depend(OrbitType orbit, DartId dart);
   [[nodiscard]] Cell& cell(Slot slot) { return (*frame_)[types::index(slot)]; }
   void decide(std::uint32_t outcome) { key_.push_back(outcome); }
   void bind(Slot slot, SymbolicValue value);
@@ -138,6 +145,9 @@ class SymbolicWalker {
   // symbolic_collections.cpp
   void polygon(const Expr& expr, std::vector<DartRef>& out);
   void trace_polygon(DartRef first, std::vector<DartRef>& corners);
+  [[nodiscard]] std::vector<DartRef> traced_orbit(OrbitType type, DartRef at);
+  void trace_orbit(OrbitType type, DartRef at, std::vector<DartRef>& members);
+  void trace_quotient(OrbitType outer, OrbitType inner, DartRef at, std::vector<DartRef>& members);
   [[nodiscard]] std::shared_ptr<const std::vector<DartRef>> members(const Expr& collection);
   template <typename Body>
   void each(const Expr& fold, const Body& body);
@@ -165,9 +175,12 @@ class SymbolicWalker {
   std::size_t depth_ = 0;
   RoleTable roles_;
   WalkTrace trace_;
+  bool record_walks_ = true;
   std::vector<std::uint32_t> key_;
   std::vector<Draw> draws_;
   std::vector<std::uint32_t> atomic_;
+  std::vector<DartId> walked_;
+  bool everywhere_ = false;
   std::vector<NodeId> positions_;
   std::vector<NodeId> differentiated_;
   std::optional<SpecialiseFailure> failure_;

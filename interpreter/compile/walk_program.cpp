@@ -4,14 +4,23 @@
 #include <algorithm>
 #include <utility>
 
+#include "gmap/orbit_walk.h"
+
 namespace gmsim::compile {
+
+namespace {
+
+/// A longer walk is no faster than looking at the expressions.
+constexpr std::uint32_t kMostSteps = 192;
+
+}  // namespace
 
 bool WalkProgram::run(const World& world, std::span<const DartId> node_darts, MatchRoles& out) {
   darts_.assign(node_darts.begin(), node_darts.end());
   for (const Step& step : steps)
     darts_.push_back(world.map.alpha(step.dimension, darts_[step.from]));
   for (const Test& test : tests)
-    if ((darts_[test.a] == darts_[test.b]) != test.same) return false;
+    if (!holds(test)) return false;
   out.roles.clear();
   for (const Visit& visit : visits) {
     const Role role{visit.type, darts_[visit.walk], visit.index->row(darts_[visit.walk])};
@@ -27,13 +36,32 @@ bool WalkProgram::run(const World& world, std::span<const DartId> node_darts, Ma
     if (!world.store.column(presence.embedding).has(out.roles[presence.role].row)) return false;
   out.targets.clear();
   for (const std::uint32_t walk : targets) out.targets.push_back(darts_[walk]);
+  out.atomic.clear();
+  for (const ForceList& list : lists) {
+    const std::size_t before = out.atomic.size();
+    world.atomic_forces->list(list.type, darts_[list.walk], out.atomic);
+    if (out.atomic.size() != before + list.count) return false;
+  }
+  for (const ForceList& list : lists)
+    gmap::for_each_dart(world.map, list.type, darts_[list.walk],
+                        [&](DartId d) { darts_.push_back(d); });
   return true;
 }
 
-void WalkTrace::start(std::uint32_t nodes) {
+bool WalkProgram::holds(const Test& test) const {
+  const DartId a = darts_[test.a], b = darts_[test.b];
+  switch (test.kind) {
+    case Test::Kind::Same: return a == b;
+    case Test::Kind::Different: return a != b;
+    case Test::Kind::Older: return a < b;
+  }
+  return false;
+}
+
+void WalkTrace::start(std::uint32_t nodes, bool record) {
   program_ = {};
   program_.nodes = nodes;
-  straight_ = true;
+  straight_ = record;
 }
 
 bool WalkTrace::known(std::uint32_t walk) {
@@ -48,12 +76,22 @@ std::uint32_t WalkTrace::follow(std::uint32_t from, int dimension) {
     return s.from == from && s.dimension == dimension;
   });
   const auto number = static_cast<std::uint32_t>(step - steps.begin());
+  if (number >= kMostSteps) {
+    spoil();
+    return kNoWalk;
+  }
   if (step == steps.end()) steps.push_back({from, static_cast<std::uint8_t>(dimension)});
   return program_.nodes + number;
 }
 
 void WalkTrace::test(std::uint32_t a, std::uint32_t b, bool same) {
-  if (known(a) && known(b)) program_.tests.push_back({a, b, same});
+  if (known(a) && known(b))
+    program_.tests.push_back(
+        {a, b, same ? WalkProgram::Test::Kind::Same : WalkProgram::Test::Kind::Different});
+}
+
+void WalkTrace::older(std::uint32_t a, std::uint32_t b) {
+  if (known(a) && known(b)) program_.tests.push_back({a, b, WalkProgram::Test::Kind::Older});
 }
 
 void WalkTrace::visit(OrbitType type, std::uint32_t walk, std::uint32_t role,
@@ -78,6 +116,10 @@ void WalkTrace::require(EmbeddingId embedding, std::uint32_t role) {
 
 void WalkTrace::target(std::uint32_t walk) {
   if (known(walk)) program_.targets.push_back(walk);
+}
+
+void WalkTrace::list(OrbitType type, std::uint32_t walk, std::uint32_t count) {
+  if (known(walk)) program_.lists.push_back({type, walk, count});
 }
 
 std::optional<WalkProgram> WalkTrace::take() {

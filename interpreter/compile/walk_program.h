@@ -12,8 +12,9 @@
 namespace gmsim::compile {
 
 /// A straight way to the roles of a match: walks from its nodes, tests that they lead to a match of
-/// the same shape, and the orbits read at their ends. Possible when the shape rests on links and
-/// coincidences alone; then no expression need be looked at to enter a match into its table.
+/// the same shape, and the orbits read at their ends. Possible when the shape rests on links,
+/// coincidences and the order of darts alone, and not on many; then no expression need be looked at
+/// to enter a match into its table.
 class WalkProgram {
  public:
   struct Step {
@@ -21,9 +22,10 @@ class WalkProgram {
     std::uint8_t dimension = 0;
   };
   struct Test {
+    enum class Kind : std::uint8_t { Same, Different, Older };
     std::uint32_t a = 0;
     std::uint32_t b = 0;
-    bool same = true;  ///< the walks end at one dart, or at different ones
+    Kind kind = Kind::Same;  ///< of the darts at the ends of the walks
   };
   struct Visit {
     OrbitType type;
@@ -43,13 +45,22 @@ class WalkProgram {
   std::vector<Visit> visits;  ///< in order of first appearance, each orbit and walk once
   std::vector<Presence> presences;
   std::vector<std::uint32_t> targets;  ///< walks to the darts of the force targets
+  /// So many atomic forces live on sub-orbits of an orbit.
+  struct ForceList {
+    OrbitType type;
+    std::uint32_t walk = 0;
+    std::uint32_t count = 0;
+  };
+  std::vector<ForceList> lists;
 
   /// Fills roles and targets. False: the match has another shape, or lacks a value.
   bool run(const World& world, std::span<const DartId> node_darts, MatchRoles& out);
-  /// The darts that the last run came by, its nodes first.
+  /// The darts that the last run depended on, its nodes first.
   [[nodiscard]] const std::vector<DartId>& darts() const { return darts_; }
 
  private:
+  [[nodiscard]] bool holds(const Test& test) const;
+
   std::vector<DartId> darts_;
 };
 
@@ -57,16 +68,20 @@ class WalkProgram {
 /// links and coincidences spoils it.
 class WalkTrace {
  public:
-  void start(std::uint32_t nodes);
+  void start(std::uint32_t nodes, bool record);
+  [[nodiscard]] bool straight() const { return straight_; }
   void spoil() { straight_ = false; }
   /// The walk that continues `from` by a link.
   std::uint32_t follow(std::uint32_t from, int dimension);
   /// That two darts were found to be the same or not decides.
   void test(std::uint32_t a, std::uint32_t b, bool same);
+  /// That a dart was found to be older than another decides.
+  void older(std::uint32_t a, std::uint32_t b);
   void visit(OrbitType type, std::uint32_t walk, std::uint32_t role,
              const gmap::OrbitIndex* index);
   void require(EmbeddingId embedding, std::uint32_t role);
   void target(std::uint32_t walk);
+  void list(OrbitType type, std::uint32_t walk, std::uint32_t count);
   [[nodiscard]] std::optional<WalkProgram> take();
 
  private:

@@ -2,6 +2,7 @@
 #include "engine/atomic_forces.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "gmap/orbit_walk.h"
 
@@ -18,14 +19,80 @@ void add(VertexRecord& sum, const VertexRecord& force, double share) {
 }  // namespace
 
 void AtomicForceIndex::rebuild(std::span<const AtomicForce> forces) {
-  const std::size_t darts = map_.dart_end();
-  first_.assign(darts + 1, 0);
-  for (const AtomicForce& force : forces) ++first_[types::index(force.dart) + 1];
-  for (std::size_t d = 0; d < darts; ++d) first_[d + 1] += first_[d];
-  forces_.resize(forces.size());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (const AtomicForce& force : forces) forces_[next[types::index(force.dart)]++] = force;
+  std::vector<std::uint32_t> counts(map_.dart_end(), 0);
+  for (const AtomicForce& force : forces) ++counts[types::index(force.dart)];
+  lists_.rebuild(counts.size(), [&](std::size_t dart) { return counts[dart]; });
+  forces_.assign(forces.begin(), forces.end());
+  free_.clear();
+  for (std::uint32_t number = 0; number < forces_.size(); ++number)
+    lists_.append(types::index(forces_[number].dart), number);
 }
+
+// ---- changes ------------------------------------------------------------------------------------
+
+namespace {
+
+auto place(const AtomicForce& force) { return std::tuple(force.number, force.key, force.target); }
+
+}  // namespace
+
+void AtomicForceIndex::update(const AtomicForceChanges& changes, std::vector<DartId>& changed) {
+  lists_.grow(map_.dart_end());
+  leaving_.clear();
+  for (const auto& gone : changes.gone) leave(gone);
+  for (const AtomicForce& force : changes.come) {
+    if (come_back(force)) continue;
+    insert(force);
+    changed.push_back(force.dart);
+  }
+  for (const auto& [dart, number] : leaving_) {
+    if (forces_[number].share != 0) continue;
+    const std::span<const std::uint32_t> list = lists_[types::index(dart)];
+    const auto at = std::find(list.begin(), list.end(), number);
+    lists_.erase(types::index(dart), static_cast<std::size_t>(at - list.begin()));
+    forces_[number] = {.share = 0};
+    free_.push_back(number);
+    changed.push_back(dart);
+  }
+}
+
+void AtomicForceIndex::leave(const AtomicForceChanges::Gone& gone) {
+  for (const std::uint32_t number : lists_[types::index(gone.dart)]) {
+    AtomicForce& force = forces_[number];
+    if (force.number != gone.number || force.key != gone.key || force.share == 0) continue;
+    force.share = 0;
+    leaving_.emplace_back(gone.dart, number);
+  }
+}
+
+bool AtomicForceIndex::come_back(const AtomicForce& force) {
+  for (const std::uint32_t number : lists_[types::index(force.dart)]) {
+    AtomicForce& there = forces_[number];
+    if (place(there) != place(force) || there.orbit != force.orbit) continue;
+    there = force;
+    return true;
+  }
+  return false;
+}
+
+void AtomicForceIndex::insert(const AtomicForce& force) {
+  std::uint32_t number = static_cast<std::uint32_t>(forces_.size());
+  if (free_.empty()) {
+    forces_.push_back(force);
+  } else {
+    number = free_.back();
+    free_.pop_back();
+    forces_[number] = force;
+  }
+  const std::size_t dart = types::index(force.dart);
+  const std::span<const std::uint32_t> list = lists_[dart];
+  const auto after = std::find_if(list.begin(), list.end(), [&](std::uint32_t other) {
+    return place(force) < place(forces_[other]);
+  });
+  lists_.insert(dart, static_cast<std::size_t>(after - list.begin()), number);
+}
+
+// ---- readings -----------------------------------------------------------------------------------
 
 void AtomicForceIndex::list(types::OrbitType orbit, DartId dart,
                             std::vector<std::uint32_t>& out) const {
@@ -33,38 +100,63 @@ void AtomicForceIndex::list(types::OrbitType orbit, DartId dart,
   gmap::for_each_dart(map_, orbit, dart, [&](DartId d) { darts.push_back(d); });
   std::sort(darts.begin(), darts.end());
   for (const DartId d : darts)
-    for (std::uint32_t k = first_[types::index(d)]; k < first_[types::index(d) + 1]; ++k)
-      if (orbit.contains(forces_[k].orbit)) out.push_back(k);
+    for (const std::uint32_t number : lists_[types::index(d)])
+      if (orbit.contains(forces_[number].orbit)) out.push_back(number);
 }
 
 void AtomicForceIndex::read(std::span<const VertexRecord> slots,
                             std::vector<VertexRecord>& values) const {
   values.assign(forces_.size(), {});
   for (std::size_t k = 0; k < forces_.size(); ++k)
-    add(values[k], slots[forces_[k].slot], forces_[k].share);
+    if (forces_[k].share != 0) add(values[k], slots[forces_[k].slot], forces_[k].share);
+}
+
+// ---- sums on orbits -----------------------------------------------------------------------------
+
+void OrbitForces::list(const AtomicForceIndex& atomic, DartId dart) {
+  numbers_.clear();
+  listed_.clear();
+  atomic.list(orbit_, dart, numbers_);
+  for (const std::uint32_t k : numbers_)
+    if (only_ == 0 || types::index(atomic[k].interaction) + 1 == only_)
+      listed_.push_back({atomic[k].slot, atomic[k].share});
 }
 
 void OrbitForces::rebuild(const AtomicForceIndex& atomic, const gmap::OrbitIndex& orbits) {
-  terms_.clear();
-  first_.assign(orbits.row_end() + std::size_t{1}, 0);
-  std::vector<std::uint32_t> numbers;
+  std::vector<Term> all;
+  std::vector<std::uint32_t> counts(orbits.row_end(), 0);
   for (gmap::Row row = 0; row < orbits.row_end(); ++row) {
-    first_[row] = static_cast<std::uint32_t>(terms_.size());
     if (!orbits.alive(row)) continue;
-    numbers.clear();
-    atomic.list(orbit_, orbits.smallest(row), numbers);
-    for (const std::uint32_t k : numbers)
-      if (only_ == 0 || types::index(atomic[k].interaction) + 1 == only_)
-        terms_.push_back({atomic[k].slot, atomic[k].share});
+    list(atomic, orbits.smallest(row));
+    counts[row] = static_cast<std::uint32_t>(listed_.size());
+    all.insert(all.end(), listed_.begin(), listed_.end());
   }
-  first_[orbits.row_end()] = static_cast<std::uint32_t>(terms_.size());
+  terms_.rebuild(counts.size(), [&](std::size_t row) { return counts[row]; });
+  auto next = all.begin();
+  for (gmap::Row row = 0; row < counts.size(); ++row)
+    for (std::uint32_t k = 0; k < counts[row]; ++k) terms_.append(row, *next++);
+}
+
+void OrbitForces::update(const AtomicForceIndex& atomic, const gmap::OrbitIndex& orbits,
+                         std::span<const DartId> darts, std::span<const gmap::Row> removed) {
+  terms_.grow(orbits.row_end());
+  for (const gmap::Row row : removed) terms_.clear(row);
+  std::vector<gmap::Row> rows;
+  for (const DartId dart : darts)
+    if (orbits.row(dart) != gmap::kNoRow) rows.push_back(orbits.row(dart));
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  for (const gmap::Row row : rows) {
+    list(atomic, orbits.smallest(row));
+    terms_.clear(row);
+    for (const Term& term : listed_) terms_.append(row, term);
+  }
 }
 
 void OrbitForces::sum(std::span<const VertexRecord> slots) {
-  values_.assign(first_.size() - 1, {});
+  values_.assign(terms_.rows(), {});
   for (std::size_t row = 0; row < values_.size(); ++row)
-    for (std::uint32_t k = first_[row]; k < first_[row + 1]; ++k)
-      add(values_[row], slots[terms_[k].slot], terms_[k].share);
+    for (const Term& term : terms_[row]) add(values_[row], slots[term.slot], term.share);
 }
 
 }  // namespace gmsim::engine

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "compile/specialise.h"
 #include "engine/force_field.h"
+#include "engine/row_lists.h"
 #include "gmap/gmap.h"
 #include "gmap/orbit_index.h"
 #include "types/expr.h"
@@ -21,6 +23,22 @@ struct AtomicForce {
   types::InteractionId interaction{};
   std::uint32_t slot = 0;             ///< of the force on the vertex, among those of the force field
   double share = 1;                   ///< of what stands there; negative where that is the opposite
+  // Its place in the canonical order.
+  std::uint32_t number = 0;           ///< of the interaction, as the model counts
+  DartId key = gmap::kNoDart;         ///< of the match
+  std::uint32_t target = 0;           ///< of the match's darts
+};
+
+/// What a force field's last refresh() did to its list of atomic forces.
+struct AtomicForceChanges {
+  /// A match whose forces left the list, on one of its darts.
+  struct Gone {
+    DartId dart = gmap::kNoDart;
+    std::uint32_t number = 0;
+    DartId key = gmap::kNoDart;
+  };
+  std::vector<Gone> gone;         ///< each dart of a match at least once
+  std::vector<AtomicForce> come;  ///< after what is gone, some of which may be back with another slot
 };
 
 /// All internal atomic forces: what force_on() and forces() read. Loads (`external`) are not among
@@ -31,6 +49,9 @@ class AtomicForceIndex final : public compile::AtomicForceList {
 
   /// `forces` in the canonical order: interaction, match, force line.
   void rebuild(std::span<const AtomicForce> forces);
+  /// Follows a change; numbers of forces that are still there stay. Appends the darts whose lists are
+  /// others now.
+  void update(const AtomicForceChanges& changes, std::vector<DartId>& changed);
   /// Numbers of the forces that live on sub-orbits of the orbit of `dart`: by ascending dart, those of
   /// one dart in the canonical order.
   void list(types::OrbitType orbit, DartId dart, std::vector<std::uint32_t>& out) const override;
@@ -40,9 +61,16 @@ class AtomicForceIndex final : public compile::AtomicForceList {
   void read(std::span<const VertexRecord> slots, std::vector<VertexRecord>& values) const;
 
  private:
+  void leave(const AtomicForceChanges::Gone& gone);
+  /// True when it was there, waiting to be dropped.
+  bool come_back(const AtomicForce& force);
+  void insert(const AtomicForce& force);
+
   const gmap::GMap& map_;
-  std::vector<AtomicForce> forces_;   // by dart
-  std::vector<std::uint32_t> first_;  // by dart: where its forces begin
+  std::vector<AtomicForce> forces_;        // by number; what nobody lists has no share
+  std::vector<std::uint32_t> free_;        // numbers
+  RowLists<std::uint32_t> lists_;          // by dart: numbers in canonical order
+  std::vector<std::pair<DartId, std::uint32_t>> leaving_;  // of an update: darts and numbers
 };
 
 /// force_on(O(a)) for all orbits of a type, of all interactions or of one.
@@ -52,6 +80,9 @@ class OrbitForces {
   OrbitForces(types::OrbitType orbit, std::uint32_t only) : orbit_(orbit), only_(only) {}
 
   void rebuild(const AtomicForceIndex& atomic, const gmap::OrbitIndex& orbits);
+  /// Follows changes of the lists and links of these darts; `removed`: rows that are gone.
+  void update(const AtomicForceIndex& atomic, const gmap::OrbitIndex& orbits,
+              std::span<const DartId> darts, std::span<const gmap::Row> removed);
   void sum(std::span<const VertexRecord> slots);
   /// By row of the orbit index (N).
   [[nodiscard]] std::span<const VertexRecord> values() const { return values_; }
@@ -63,11 +94,14 @@ class OrbitForces {
     std::uint32_t slot = 0;
     double share = 1;
   };
+  void list(const AtomicForceIndex& atomic, DartId dart);
+
   types::OrbitType orbit_;
   std::uint32_t only_;
-  std::vector<Term> terms_;
-  std::vector<std::uint32_t> first_;  // by row
+  RowLists<Term> terms_;
   std::vector<VertexRecord> values_;
+  std::vector<std::uint32_t> numbers_;  // work space
+  std::vector<Term> listed_;
 };
 
 }  // namespace gmsim::engine

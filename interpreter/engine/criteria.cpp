@@ -27,18 +27,60 @@ Criteria::Criteria(State& state, const ForceField& forces, std::span<const TearP
   }
 }
 
-Criteria::Diagnostic Criteria::rebuild() {
+void Criteria::list_forces() {
   listed_.clear();
   forces_.list_atomic(listed_);
   atomic_.rebuild(listed_);
+}
+
+void Criteria::add_readings() {
   one_by_one_ = false;
+  const std::size_t there = readings_.sums.size();
   for (const auto& field : fields_) {
-    if (Diagnostic error = field->rebuild()) return error;
     field->add_sums(readings_);
     one_by_one_ = one_by_one_ || field->reads_forces_one_by_one();
   }
-  for (const auto& sum : readings_.sums)
-    sum->rebuild(atomic_, *state_.store.find_index(sum->orbit()));
+  for (std::size_t k = there; k < readings_.sums.size(); ++k)
+    readings_.sums[k]->rebuild(atomic_, *state_.store.find_index(readings_.sums[k]->orbit()));
+}
+
+Criteria::Diagnostic Criteria::rebuild() {
+  list_forces();
+  readings_.sums.clear();
+  for (const auto& field : fields_)
+    if (Diagnostic error = field->rebuild()) return error;
+  add_readings();
+  return std::nullopt;
+}
+
+Criteria::Diagnostic Criteria::repair(const Effects& effects, const MapDelta& delta,
+                                      std::uint64_t& looked_at) {
+  const AtomicForceChanges* changes = forces_.atomic_changes();
+  const auto repairable = [](const auto& field) { return field->repairable(); };
+  if (changes == nullptr || !std::all_of(fields_.begin(), fields_.end(), repairable)) return rebuild();
+  relisted_.clear();
+  atomic_.update(*changes, relisted_);
+  // Matches that go through single forces depend on the lists of their darts.
+  std::vector<DartId> with_lists = delta.darts;
+  with_lists.insert(with_lists.end(), relisted_.begin(), relisted_.end());
+  std::sort(with_lists.begin(), with_lists.end());
+  with_lists.erase(std::unique(with_lists.begin(), with_lists.end()), with_lists.end());
+  for (const auto& field : fields_) {
+    const std::vector<DartId>& changed =
+        field->reads_forces_one_by_one() ? with_lists : delta.darts;
+    if (Diagnostic error = field->repair(changed, looked_at)) return error;
+  }
+  // Sums on orbits with a changed link, another list of forces, or forces in other slots.
+  std::vector<DartId> darts = delta.darts;
+  for (const auto& gone : changes->gone) darts.push_back(gone.dart);
+  for (const AtomicForce& force : changes->come) darts.push_back(force.dart);
+  std::erase_if(darts, [&](DartId dart) { return !state_.map.alive(dart); });
+  for (const auto& sum : readings_.sums) {
+    const gmap::OrbitRepair* repair = effects.find(sum->orbit());
+    sum->update(atomic_, *state_.store.find_index(sum->orbit()), darts,
+                repair == nullptr ? std::span<const Row>{} : std::span<const Row>(repair->removed));
+  }
+  add_readings();
   return std::nullopt;
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/criterion_field.h"
 #include "engine/force_field.h"
+#include "engine/map_delta.h"
 
 namespace gmsim::engine {
 
@@ -22,6 +23,9 @@ class Criteria {
 
   /// Finds all matches and force lists anew.
   Diagnostic rebuild();
+  /// Follows a change of the map, which the force field has followed already; counts in `looked_at`
+  /// the matches that were found again.
+  Diagnostic repair(const Effects& effects, const MapDelta& delta, std::uint64_t& looked_at);
   /// The requests of all pairings that are due at `time`, those of each pairing reduced to its
   /// strongest, in the order of their application. The last evaluation of the force field must have
   /// been of this motion. `sync` puts it into the store; it is called, once, before `where` is looked
@@ -34,6 +38,9 @@ class Criteria {
   }
 
  private:
+  void list_forces();
+  /// Makes the sums that are not there yet, and sees what is read one by one.
+  void add_readings();
   void read_forces_now();
   /// Drops what the scene does not allow, keeps the strongest, and adds a request for each node.
   Diagnostic select(const CriterionField& field, std::vector<TearRequest>& requests);
@@ -47,6 +54,7 @@ class Criteria {
   std::vector<std::unique_ptr<CriterionField>> fields_;
   TreeEvaluator evaluator_;
   std::vector<AtomicForce> listed_;
+  std::vector<DartId> relisted_;  // darts with other lists of forces than before
 };
 
 }  // namespace gmsim::engine

@@ -13,6 +13,8 @@ namespace gmsim::engine {
 
 namespace {
 
+constexpr std::uint32_t kFewVacant = 256;
+
 using compile::ValueSource;
 using compile::ValueSources;
 using types::Expr;
@@ -100,28 +102,86 @@ CriterionField::CriterionField(const ForceContext& context, const compile::World
       body_(context.state.program.criterion_bodies[pairing.criterion]),
       sources_(sources_of(context, pairing)),
       finder_(context, context.state.program.criteria[pairing.criterion], world, body_,
-              wanted(body_, pairing.threshold), sources_) {}
+              wanted(body_, pairing.threshold), sources_),
+      watch_(context, context.state.program.criteria[pairing.criterion], body_) {
+  finder_.on_excluded([this](const ForceMatch& match) { watch_.add(match); });
+}
 CriterionField::~CriterionField() = default;
 
 CriterionField::Diagnostic CriterionField::rebuild() {
   for (const auto& part : parts_) part->table.clear();
-  return finder_.find_all([&](const ForceMatch& match) { add(match); });
+  watch_.clear();
+  places_.assign(context_.state.map.dart_end(), {});
+  if (Diagnostic error = finder_.find_all([&](const ForceMatch& match) { add(match); }))
+    return error;
+  watch_.pack();
+  return std::nullopt;
 }
 
 void CriterionField::add(const ForceMatch& match) {
-  while (parts_.size() < finder_.shapes().size()) {
-    const auto number = static_cast<std::uint32_t>(parts_.size());
-    const compile::Shape& shape = finder_.shapes()[number];
-    const ShapeInputs& inputs = finder_.inputs(number);
-    const std::size_t rows = shape.roles.size() + match.roles.atomic.size();
-    parts_.push_back(std::make_unique<Part>(
-        shape, inputs,
-        MatchTable::Widths{.roles = static_cast<std::uint32_t>(rows),
-                           .nodes = static_cast<std::uint32_t>(body_.nodes.size()),
-                           .targets = 0,
-                           .own = inputs.own_widths()}));
+  while (parts_.size() < finder_.shapes().size()) add_part(match);
+  if (places_.size() <= types::index(match.key)) places_.resize(context_.state.map.dart_end());
+  places_[types::index(match.key)] = {match.shape, parts_[match.shape]->table.add(match)};
+  watch_.add(match);
+}
+
+void CriterionField::add_part(const ForceMatch& match) {
+  const auto number = static_cast<std::uint32_t>(parts_.size());
+  const compile::Shape& shape = finder_.shapes()[number];
+  const ShapeInputs& inputs = finder_.inputs(number);
+  const std::size_t rows = shape.roles.size() + match.roles.atomic.size();
+  parts_.push_back(std::make_unique<Part>(
+      shape, inputs,
+      MatchTable::Widths{.roles = static_cast<std::uint32_t>(rows),
+                         .nodes = static_cast<std::uint32_t>(body_.nodes.size()),
+                         .targets = 0,
+                         .own = inputs.own_widths()}));
+  own_stay_ = own_stay_ && inputs.own_stay_in_orbits();
+}
+
+void CriterionField::remove(DartId key) {
+  const Place gone = std::exchange(places_[types::index(key)], Place{});
+  parts_[gone.shape]->table.vacate(gone.row);
+}
+
+/// Takes vacant rows out of a table when they are many.
+void CriterionField::pack(Part& part) {
+  MatchTable& table = part.table;
+  if (table.size() <= table.count() + table.count() / 4 + kFewVacant) return;
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t row = 0; row < table.size(); ++row) {
+    if (table.vacant(row)) continue;
+    places_[types::index(table.key(row))].row = static_cast<std::uint32_t>(rows.size());
+    rows.push_back(row);
   }
-  parts_[match.shape]->table.add(match);
+  table.pack(rows);
+}
+
+CriterionField::Diagnostic CriterionField::repair(std::span<const DartId> changed,
+                                                  std::uint64_t& looked_at) {
+  const gmap::GMap& map = context_.state.map;
+  std::vector<DartId> keys, hooks;
+  watch_.find_stale(changed, keys, hooks);
+  for (const DartId key : keys) {
+    hooks.push_back(key);
+    const Place there = place(key);
+    if (there.shape == kNowhere) continue;
+    hooks.push_back(parts_[there.shape]->table.nodes(there.row)[body_.hook]);
+    remove(key);
+  }
+  for (DartId& hook : hooks)
+    hook = map.alive(hook) ? gmap::smallest_dart(map, body_.orbit, hook) : gmap::kNoDart;
+  std::sort(hooks.begin(), hooks.end());
+  hooks.erase(std::unique(hooks.begin(), hooks.end()), hooks.end());
+  if (!hooks.empty() && hooks.back() == gmap::kNoDart) hooks.pop_back();
+  looked_at += hooks.size();
+  for (const DartId key : hooks) {
+    if (place(key).shape != kNowhere) remove(key);
+    if (Diagnostic error = finder_.find_at(key, [&](const ForceMatch& match) { add(match); }))
+      return error;
+  }
+  for (const auto& part : parts_) pack(*part);
+  return std::nullopt;
 }
 
 void CriterionField::add_sums(ForceReadings& readings) const {
@@ -149,13 +209,17 @@ bool CriterionField::reads_forces_one_by_one() const {
 CriterionField::Diagnostic CriterionField::judge(const ForceMoment& moment,
                                                  std::vector<TearRequest>& requests) {
   ratios_.clear();
+  NearestMatch nearest;
   for (std::uint32_t shape = 0; shape < parts_.size(); ++shape)
-    if (Diagnostic error = judge_part(*parts_[shape], shape, moment, requests)) return error;
+    if (Diagnostic error = judge_part(*parts_[shape], shape, moment, nearest, requests))
+      return error;
+  note_nearest(nearest, moment);
   return std::nullopt;
 }
 
 CriterionField::Diagnostic CriterionField::judge_part(Part& part, std::uint32_t shape,
                                                       const ForceMoment& moment,
+                                                      NearestMatch& nearest,
                                                       std::vector<TearRequest>& requests) {
   const std::uint32_t count = part.table.size();
   part.values.resize(count);
@@ -163,28 +227,33 @@ CriterionField::Diagnostic CriterionField::judge_part(Part& part, std::uint32_t 
   std::vector<InputBinding> inputs;
   part.judged.bind(part.table, context_.state.store, moment, inputs);
   const OutputBinding outputs[] = {{part.values.data(), 1}, {part.thresholds.data(), 1}};
-  if (const auto row = run_kernel(part.judged.kernel(), inputs, outputs, 0, count, scratch_)) {
+  if (const auto row = part.judged.run(part.table, inputs, outputs, 0, count, scratch_)) {
     const ForceMatch match = part.table.match(*row, shape);
     IrEvaluator<double> evaluator(part.judged.program().graph);
     evaluate_match(part.judged.program(), match, moment, context_.state.store, evaluator);
     return non_finite(body_, match, part.judged.program(), evaluator);
   }
   for (std::uint32_t row = 0; row < count; ++row) {
+    if (part.table.vacant(row)) continue;
     const double value = part.values[row], threshold = part.thresholds[row];
     if (value == 0 && threshold == 0) continue;  // the criterion's conditions do not hold there
     if (keep_ratios_) ratios_.push_back(value / threshold);
-    if (nearest_.where == gmap::kNoDart ||
-        value / threshold > nearest_.value / nearest_.threshold)
-      note_nearest(part.table.nodes(row)[body_.hook], value, threshold, moment);
+    const DartId hook = part.table.nodes(row)[body_.hook];
+    const double ratio = value / threshold, best = nearest.value / nearest.threshold;
+    if (nearest.where == gmap::kNoDart || ratio > best || (ratio == best && hook < nearest.where))
+      nearest = {value, threshold, moment.time, hook, {}};
     if (value > threshold) fire(part, shape, row, moment, value, threshold, requests);
   }
   return std::nullopt;
 }
 
-void CriterionField::note_nearest(DartId hook, double value, double threshold,
-                                  const ForceMoment& moment) {
-  const VertexRecord& at = moment.position[context_.vertices().row(hook)];
-  nearest_ = {value, threshold, moment.time, hook, {at.x, at.y, at.z}};
+void CriterionField::note_nearest(const NearestMatch& candidate, const ForceMoment& moment) {
+  const bool nearer = nearest_.where == gmap::kNoDart || candidate.value / candidate.threshold >
+                                                             nearest_.value / nearest_.threshold;
+  if (candidate.where == gmap::kNoDart || !nearer) return;
+  nearest_ = candidate;
+  const VertexRecord& at = moment.position[context_.vertices().row(candidate.where)];
+  nearest_.position = {at.x, at.y, at.z};
 }
 
 void CriterionField::fire(Part& part, std::uint32_t shape, std::uint32_t row,

@@ -3,12 +3,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/force_kernel.h"
 #include "engine/force_matches.h"
 #include "engine/force_readings.h"
 #include "engine/match_table.h"
+#include "engine/match_watch.h"
 #include "engine/tear_requests.h"
 
 namespace gmsim::engine {
@@ -26,6 +28,10 @@ class CriterionField {
 
   /// Finds all matches anew.
   Diagnostic rebuild();
+  /// Looks again at the matches that depend on these darts (as in MapDelta), and counts them.
+  Diagnostic repair(std::span<const DartId> changed, std::uint64_t& looked_at);
+  /// False: only rebuild() is safe.
+  [[nodiscard]] bool repairable() const { return watch_.complete() && own_stay_; }
   /// Makes the sums of forces that the criterion reads, where they are not there yet.
   void add_sums(ForceReadings& readings) const;
   [[nodiscard]] bool reads_forces_one_by_one() const;
@@ -43,10 +49,23 @@ class CriterionField {
  private:
   /// The table of one shape and its kernels.
   struct Part;
+  struct Place {
+    std::uint32_t shape = kNowhere;
+    std::uint32_t row = 0;
+  };
+  static constexpr std::uint32_t kNowhere = 0xffffffffu;
+
   void add(const ForceMatch& match);
+  void add_part(const ForceMatch& match);
+  [[nodiscard]] Place place(DartId key) const {
+    return types::index(key) < places_.size() ? places_[types::index(key)] : Place{};
+  }
+  void remove(DartId key);
+  void pack(Part& part);
   Diagnostic judge_part(Part& part, std::uint32_t shape, const ForceMoment& moment,
-                        std::vector<TearRequest>& requests);
-  void note_nearest(DartId hook, double value, double threshold, const ForceMoment& moment);
+                        NearestMatch& nearest, std::vector<TearRequest>& requests);
+  /// Takes over the nearest match of a judgement if none before was nearer.
+  void note_nearest(const NearestMatch& candidate, const ForceMoment& moment);
   void fire(Part& part, std::uint32_t shape, std::uint32_t row, const ForceMoment& moment,
             double value, double threshold, std::vector<TearRequest>& requests);
 
@@ -57,6 +76,9 @@ class CriterionField {
   const compile::ValueSources sources_;
   ForceMatches finder_;
   std::vector<std::unique_ptr<Part>> parts_;  // by shape
+  std::vector<Place> places_;                 // by key
+  MatchWatch watch_;
+  bool own_stay_ = true;  // what matches know themselves changes with the darts they depend on alone
   KernelScratch scratch_;
   NearestMatch nearest_;
   std::vector<double> ratios_;

@@ -15,9 +15,16 @@ struct OrbitEvents {
   gmap::OrbitRepair repair;
 };
 
+/// An orbit that was given a value.
+struct WrittenOrbit {
+  OrbitType type;
+  DartId dart = gmap::kNoDart;
+};
+
 /// What one or several rewrites changed and what it cost: counters for `--profile`.
 struct Effects {
   std::vector<DartId> touched;       ///< darts with a changed link, created and removed ones too
+  std::vector<WrittenOrbit> written; ///< where a rule assigned a value
   std::vector<OrbitEvents> orbits;   ///< one entry for each orbit type in use that was repaired
   std::uint64_t applications = 0;    ///< rules applied
   std::uint64_t dropped = 0;         ///< candidates that did not match when their turn came
@@ -33,6 +40,8 @@ struct Effects {
   [[nodiscard]] std::uint64_t visited_darts() const;
   /// Adds what happened after this.
   void append(const Effects& later);
+  /// Did nothing happen? An operation may assign values without applying a rule.
+  [[nodiscard]] bool nothing() const { return applications == 0 && written.empty(); }
   /// Nothing happened; keeps its memory.
   void clear();
 };

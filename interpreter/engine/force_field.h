@@ -15,6 +15,7 @@
 namespace gmsim::engine {
 
 struct AtomicForce;
+struct AtomicForceChanges;
 struct ForceContext;
 
 /// A vertex quantity, padded to 32 bytes so that a vertex never straddles a cache line.
@@ -45,6 +46,12 @@ class ForceField {
   virtual bool evaluate_end(const Motion& motion, double time, double dt,
                             std::span<VertexRecord> force) {
     return evaluate(motion, time, dt, force);
+  }
+  /// The same after refresh(), at the motion of the last evaluate_end(), whose result is in `force`:
+  /// computes what has changed.
+  virtual bool evaluate_changes(const Motion& motion, double time, double dt,
+                                std::span<VertexRecord> force) {
+    return evaluate_end(motion, time, dt, force);
   }
   /// Sum of all energies (J).
   virtual bool potential_energy(const Motion& motion, double time, double& energy) = 0;
@@ -84,6 +91,8 @@ class ForceField {
   [[nodiscard]] virtual const ForceContext* context() const { return nullptr; }
   /// Appends every internal atomic force that is kept, in the canonical order.
   virtual void list_atomic(std::vector<AtomicForce>&) const {}
+  /// What the last refresh() did to that list; null: it has to be read as a whole.
+  [[nodiscard]] virtual const AtomicForceChanges* atomic_changes() const { return nullptr; }
   /// The forces of single matches on vertices (N), as the last evaluate_end() left them.
   [[nodiscard]] virtual std::span<const VertexRecord> atomic_slots() const { return {}; }
 
@@ -92,8 +101,10 @@ class ForceField {
   using RowWork = void (*)(const void* context, Row begin, Row end);
   virtual void share_rows(Row rows, RowWork work, const void* context) { work(context, 0, rows); }
 
-  /// Takes over changed topology and values; `touched` as in Effects.
-  virtual void refresh(std::span<const DartId> touched) = 0;
+  /// Takes over changed topology and values; `changed` as in MapDelta, empty when that is not known.
+  virtual void refresh(std::span<const DartId> changed) = 0;
+  /// Matches that refresh() has looked at again so far, without looking at all.
+  [[nodiscard]] virtual std::uint64_t found_again() const { return 0; }
   [[nodiscard]] virtual const std::optional<support::Diagnostic>& error() const = 0;
   /// The plan as text (`gmsim explain`).
   [[nodiscard]] virtual std::string explain() const = 0;

@@ -108,10 +108,14 @@ std::optional<support::Diagnostic> ForceMatches::enter(const Visit& visit) {
   for (compile::Column c = 0; c < pattern_.match.nodes.size(); ++c)
     match_.nodes.push_back(found_.dart(0, c));
   const std::optional<std::uint32_t> shape = shapes_.classify(match_.nodes, match_.roles);
+  if (pattern_.match.positions > 0)  // its labels compare these
+    match_.roles.walked.insert(match_.roles.walked.end(), found_.darts.begin(),
+                               found_.darts.end());
   if (!shape) {
-    excluded_some_ = excluded_some_ || shapes_.failure().not_here;
-    if (shapes_.failure().not_here) return std::nullopt;
-    return shapes_.failure().diagnostic;
+    if (!shapes_.failure().not_here) return shapes_.failure().diagnostic;
+    match_.roles.roles.clear();
+    if (excluded_) excluded_(match_);
+    return std::nullopt;
   }
   match_.shape = *shape;
   while (inputs_.size() < shapes_.size())

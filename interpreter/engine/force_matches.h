@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "compile/specialise.h"
@@ -35,13 +36,14 @@ class ForceMatches {
                const compile::World& world, const compile::ItemBody& body, compile::Wanted wanted,
                const compile::ValueSources& sources);
 
+  /// Who wants to know of orbits on which the pattern holds, but a condition or a missing value stands
+  /// against it: matches without shape.
+  void on_excluded(Visit visit) { excluded_ = std::move(visit); }
   /// All matches, ascending by key. Stops at the first error and returns it.
   std::optional<support::Diagnostic> find_all(const Visit& visit);
   /// The match of the orbit that holds this dart, if there is one.
   std::optional<support::Diagnostic> find_at(DartId dart, const Visit& visit);
 
-  /// Was there an orbit where the pattern holds, but a condition or a missing value stood against it?
-  [[nodiscard]] bool excluded_some() const { return excluded_some_; }
   [[nodiscard]] const compile::ShapeSet& shapes() const { return shapes_; }
   [[nodiscard]] const ShapeInputs& inputs(std::uint32_t shape) const { return *inputs_[shape]; }
 
@@ -67,7 +69,7 @@ class ForceMatches {
   Frame frame_;
   Match found_;
   ForceMatch match_;
-  bool excluded_some_ = false;
+  Visit excluded_;
 };
 
 }  // namespace gmsim::engine

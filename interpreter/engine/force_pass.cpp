@@ -8,10 +8,7 @@ namespace gmsim::engine {
 
 namespace {
 
-constexpr std::uint32_t kPiece = 1024;      // matches
-constexpr std::uint32_t kLatePiece = 64;
 constexpr Row kVerticesPerTask = 1024;
-constexpr std::uint32_t kRecord = sizeof(VertexRecord) / sizeof(double);
 // So many changes, and a share of all rows, until everything is laid out anew.
 constexpr std::uint32_t kFewChanges = 256;
 constexpr std::uint32_t kShareOfChanges = 4;
@@ -47,7 +44,7 @@ void ForcePass::lay_out(Row vertices, std::uint32_t chunks) {
   make_sums(vertices);
   plan_last_sums();
   late_.clear();
-  late_stale_ = crowded_ = false;
+  late_stale_ = crowded_ = followed_ = false;
   changes_ = 0;
   room_ = rows / kShareOfChanges + kFewChanges;
 }
@@ -144,16 +141,21 @@ void ForcePass::link(const InteractionTables& of, std::uint32_t shape, std::uint
     block.late_slots.push_back(static_cast<std::uint32_t>(forces_.size()));
     forces_.resize(forces_.size() + std::size_t{block.outputs} * kLatePiece);
   }
-  for (std::uint32_t force = 0; force < block.roles.size(); ++force)
+  for (std::uint32_t force = 0; force < block.roles.size(); ++force) {
     sums_.insert({block.vertex(force, row), block.order(force, row), block.slot(force, row)});
+    relisted_.push_back(block.vertex(force, row));
+  }
+  linked_.push_back({static_cast<std::uint32_t>(block_of(of, shape)), row});
   late_stale_ = true;
   crowded_ = crowded_ || ++changes_ > room_;
 }
 
 void ForcePass::unlink(const InteractionTables& of, std::uint32_t shape, std::uint32_t row) {
   const Block& block = blocks_[block_of(of, shape)];
-  for (std::uint32_t force = 0; force < block.roles.size(); ++force)
+  for (std::uint32_t force = 0; force < block.roles.size(); ++force) {
     sums_.erase(block.vertex(force, row), block.order(force, row));
+    relisted_.push_back(block.vertex(force, row));
+  }
   crowded_ = crowded_ || ++changes_ > room_;
 }
 
@@ -220,6 +222,9 @@ std::optional<ForcePass::Failure> ForcePass::run(PassKernels kernels, const Forc
                                                  std::span<VertexRecord> out) {
   for (ForceWorkers::Space& space : workers.spaces) space.failed = {};
   if (late_stale_) make_late_pieces();
+  followed_ = kernels == PassKernels::Forces;
+  linked_.clear();
+  relisted_.clear();
   bind(kernels, moment, store);
   const auto share = [&](std::size_t tasks, const auto& work) {
     workers.threads.run(static_cast<std::uint32_t>(tasks), alone, work);
@@ -233,6 +238,10 @@ std::optional<ForcePass::Failure> ForcePass::run(PassKernels kernels, const Forc
   share(last_.size(), [&](std::uint32_t k, unsigned) {
     sums_.sum(forces_.data(), last_[k].begin, last_[k].end, out.data());
   });
+  return first_failure(workers);
+}
+
+std::optional<ForcePass::Failure> ForcePass::first_failure(const ForceWorkers& workers) const {
   FailedMatch first;
   for (const ForceWorkers::Space& space : workers.spaces)
     if (space.failed.piece < first.piece) first = space.failed;

@@ -72,6 +72,10 @@ class ForcePass {
   std::optional<Failure> run(PassKernels kernels, const ForceMoment& moment,
                              const gmap::EmbeddingStore& store, ForceWorkers& workers, bool alone,
                              std::span<VertexRecord> out);
+  /// The same at the motion of the last run, whose sums are in `out`: only vertices with other
+  /// matches than then are summed again, unless everything was laid out anew since.
+  std::optional<Failure> run_changes(const ForceMoment& moment, const gmap::EmbeddingStore& store,
+                                     ForceWorkers& workers, std::span<VertexRecord> out);
 
   [[nodiscard]] const ForceSums& sums() const { return sums_; }
   /// Forces of single matches.
@@ -97,6 +101,10 @@ class ForcePass {
   }
 
  private:
+  static constexpr std::uint32_t kPiece = 1024;  // matches
+  static constexpr std::uint32_t kLatePiece = 64;
+  static constexpr std::uint32_t kRecord = sizeof(VertexRecord) / sizeof(double);
+
   /// One table and the kernel that runs over it. Rows from `laid_out` on came later: their slots are
   /// given when they come, for small pieces at a time.
   struct Block : KernelAtWork {
@@ -131,6 +139,17 @@ class ForcePass {
   /// `number`: in the order of all pieces, late ones first.
   bool run_piece(const ForcePiece& piece, std::uint32_t number, ForceWorkers::Space& space);
   void run_chunk(const ForceChunk& chunk, ForceWorkers::Space& space, VertexRecord* out);
+  [[nodiscard]] std::optional<Failure> first_failure(const ForceWorkers& workers) const;
+
+  // Changes (force_pass_changes.cpp).
+  /// A row of one block.
+  struct RowAt {
+    std::uint32_t block = 0, row = 0;
+    auto operator<=>(const RowAt&) const = default;
+  };
+  bool run_linked(ForceWorkers::Space& space);
+  void sum_from_scratch(ForceWorkers::Space& space, VertexRecord* out);
+  [[nodiscard]] RowAt row_of(ForceOrder order) const;
 
   const Tables& tables_;
   const Matches matches_;
@@ -145,6 +164,9 @@ class ForcePass {
   bool crowded_ = false;
   bool unbound_ = true;                    // inputs of the blocks
   ForceSums sums_;
+  bool followed_ = false;                  // there was a run since the layout
+  std::vector<RowAt> linked_;              // since the last run
+  std::vector<Row> relisted_;              // vertices with other matches than at the last run
 };
 
 }  // namespace gmsim::engine

@@ -20,6 +20,9 @@ using ForceOrder = std::uint64_t;
 [[nodiscard]] inline std::uint32_t interaction_of(ForceOrder order) {
   return static_cast<std::uint32_t>(order >> 48);
 }
+[[nodiscard]] inline std::uint32_t force_of(ForceOrder order) {
+  return static_cast<std::uint32_t>(order & 0xffffu);
+}
 [[nodiscard]] inline DartId key_of(ForceOrder order) {
   return DartId{static_cast<std::uint32_t>(order >> 16)};
 }

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/force_tables.h"
 
-#include <algorithm>
 #include <utility>
-
-#include "gmap/orbit_walk.h"
 
 namespace gmsim::engine {
 
@@ -31,21 +28,16 @@ InteractionTables::InteractionTables(const ForceContext& context, std::uint32_t 
       number_(number),
       merge_(merge),
       finder_(context, number),
-      ways_(ways_to_hook(context.pattern(number).match)) {}
+      watch_(context, context.pattern(number), context.body(number)) {
+  finder_.on_excluded([this](const ForceMatch& match) { watch_.add(match); });
+}
 
 std::optional<support::Diagnostic> InteractionTables::rebuild() {
   for (const auto& table : tables_) table->clear();
   watch_.clear();
-  const auto& steps = body().steps;
-  repairable_ = context_.pattern(number_).match.positions == 0 &&
-                std::all_of(steps.begin(), steps.end(), [](const compile::BodyStep& step) {
-                  return step.kind == compile::BodyStep::Kind::Let;
-                });
   places_.assign(context_.state.map.dart_end(), {});
   if (auto error = finder_.find_all([&](const ForceMatch& match) { add(match); })) return error;
   watch_.pack();
-  for (std::uint32_t shape = 0; shape < tables_.size(); ++shape)
-    repairable_ = repairable_ && finder_.inputs(shape).own_stay_in_orbits();
   merge();
   return std::nullopt;
 }
@@ -70,40 +62,7 @@ void InteractionTables::add(const ForceMatch& match) {
   while (tables_.size() <= match.shape) add_shape();
   if (places_.size() <= types::index(match.key)) places_.resize(context_.state.map.dart_end());
   places_[types::index(match.key)] = {match.shape, tables_[match.shape]->add(match)};
-  repairable_ = repairable_ && match.roles.straight;
-  if (repairable_) watch_vertices(match);
-}
-
-/// All vertices in which lies a dart that the match depends on: of its pattern, of the walks of its
-/// expressions, of the orbits that it reads.
-void InteractionTables::watch_vertices(const ForceMatch& match) {
-  const gmap::GMap& map = context_.state.map;
-  const OrbitType vertex = context_.vertices().type();
-  watched_ = match.roles.walked;
-  const DartId hook = match.nodes[body().hook];
-  for (const Way& way : ways_) {
-    DartId dart = hook;
-    for (auto link = way.rbegin(); link != way.rend(); ++link) dart = map.alpha(*link, dart);
-    watched_.push_back(dart);
-  }
-  const auto watch_orbit = [&](OrbitType type, DartId dart) {
-    if (vertex.contains(type)) {
-      watched_.push_back(dart);
-    } else {
-      gmap::for_each_dart(map, type, dart, [&](DartId d) { watched_.push_back(d); });
-    }
-  };
-  watch_orbit(body().orbit, hook);
-  for (const compile::Role& role : match.roles.roles) watch_orbit(role.type, role.dart);
-  std::vector<Row> rows;
-  for (const DartId dart : watched_) rows.push_back(context_.vertices().row(dart));
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  for (const Row row : rows) watch_.add(row, match.key);
-}
-
-void InteractionTables::hooks_near(DartId dart, std::vector<DartId>& hooks) const {
-  for (const Way& way : ways_) hooks.push_back(follow(context_.state.map, dart, way));
+  watch_.add(match);
 }
 
 std::optional<support::Diagnostic> InteractionTables::find_at(DartId dart,
@@ -134,7 +93,7 @@ void InteractionTables::add_shape() {
       .targets = static_cast<std::uint32_t>(shape.targets.size()),
       .own = inputs.own_widths()}));
   kernels_.push_back(std::make_unique<ShapeKernels>(shape, inputs));
-  repairable_ = repairable_ && inputs.own_stay_in_orbits();
+  own_stay_ = own_stay_ && inputs.own_stay_in_orbits();
   std::optional<MergePlan> plan;
   if (merge_) plan = plan_merge(shape, kernels_.back()->program());
   merged_.push_back(plan ? std::make_unique<MergedTable>(std::move(*plan)) : nullptr);

@@ -8,9 +8,8 @@
 #include "engine/force_kernel.h"
 #include "engine/force_matches.h"
 #include "engine/force_merge.h"
-#include "engine/force_watch.h"
-#include "engine/force_ways.h"
 #include "engine/match_table.h"
+#include "engine/match_watch.h"
 
 namespace gmsim::engine {
 
@@ -58,14 +57,11 @@ class InteractionTables {
   /// Finds all matches anew.
   std::optional<support::Diagnostic> rebuild();
 
-  // Repairing single matches. After a change of links, look at the matches that watch a vertex with a
-  // changed dart, and at the orbits of the hooks near changed darts.
+  // Repairing single matches. After a change of the map, look again at those that watch it.
 
-  /// Is every match decided by the links that it watches? Else only rebuild() is safe.
-  [[nodiscard]] bool repairable() const { return repairable_ && !finder_.excluded_some(); }
-  [[nodiscard]] const VertexWatch& watch() const { return watch_; }
-  /// Appends the darts from which a match that holds this dart would start.
-  void hooks_near(DartId dart, std::vector<DartId>& hooks) const;
+  /// False: only rebuild() is safe.
+  [[nodiscard]] bool repairable() const { return watch_.complete() && own_stay_; }
+  [[nodiscard]] const MatchWatch& watch() const { return watch_; }
   /// Finds and adds the match of an orbit that has none in the tables; empty when there is none.
   std::optional<support::Diagnostic> find_at(DartId dart, std::optional<DartId>& key);
   /// The dart from which a match was found.
@@ -104,7 +100,6 @@ class InteractionTables {
   void add(const ForceMatch& match);
   void merge();
   void add_shape();
-  void watch_vertices(const ForceMatch& match);
 
   const ForceContext& context_;
   std::uint32_t number_;
@@ -114,10 +109,8 @@ class InteractionTables {
   std::vector<std::unique_ptr<ShapeKernels>> kernels_;
   std::vector<std::unique_ptr<MergedTable>> merged_;
   std::vector<Place> places_;                            // by key
-  std::vector<Way> ways_;                                // back to the hook
-  VertexWatch watch_;
-  bool repairable_ = true;
-  std::vector<DartId> watched_;                          // work space
+  MatchWatch watch_;
+  bool own_stay_ = true;  // what matches know themselves changes with the darts they depend on alone
 };
 
 }  // namespace gmsim::engine

@@ -5,27 +5,31 @@
 
 namespace gmsim::engine {
 
-void VertexWatch::clear() { *this = VertexWatch(); }
+void DartWatch::clear() { *this = DartWatch(); }
 
-void VertexWatch::add(gmap::Row vertex, gmap::DartId key) {
+void DartWatch::add(gmap::DartId dart, gmap::DartId key) {
   if (!packed_) {
-    unpacked_.emplace_back(vertex, key);
+    unpacked_.emplace_back(dart, key);
     return;
   }
-  std::vector<gmap::DartId>& list = more_[vertex];
+  const std::size_t d = types::index(dart);
+  if (d + 1 < begin_.size())
+    for (std::uint32_t k = begin_[d]; k < begin_[d + 1]; ++k)
+      if (keys_[k] == key) return;
+  std::vector<gmap::DartId>& list = more_[dart];
   if (std::find(list.begin(), list.end(), key) == list.end()) list.push_back(key);
 }
 
-void VertexWatch::pack() {
+void DartWatch::pack() {
   packed_ = true;
-  gmap::Row vertices = 0;
-  for (const auto& [vertex, key] : unpacked_) vertices = std::max(vertices, vertex + 1);
-  begin_.assign(vertices + std::size_t{1}, 0);
-  for (const auto& [vertex, key] : unpacked_) ++begin_[vertex + 1];
-  for (gmap::Row vertex = 0; vertex < vertices; ++vertex) begin_[vertex + 1] += begin_[vertex];
+  std::size_t darts = 0;
+  for (const auto& [dart, key] : unpacked_) darts = std::max(darts, types::index(dart) + std::size_t{1});
+  begin_.assign(darts + 1, 0);
+  for (const auto& [dart, key] : unpacked_) ++begin_[types::index(dart) + std::size_t{1}];
+  for (std::size_t d = 0; d < darts; ++d) begin_[d + 1] += begin_[d];
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   keys_.resize(unpacked_.size());
-  for (const auto& [vertex, key] : unpacked_) keys_[next[vertex]++] = key;
+  for (const auto& [dart, key] : unpacked_) keys_[next[types::index(dart)]++] = key;
   unpacked_ = {};
 }
 

@@ -9,8 +9,20 @@
 namespace gmsim::engine {
 namespace {
 
-bool finite(const VertexRecord& record) {
+bool is_finite(const VertexRecord& record) {
   return std::isfinite(record.x) && std::isfinite(record.y) && std::isfinite(record.z);
+}
+
+}  // namespace
+
+namespace {
+
+double length_of(const State& state, const Motion& motion, DartId edge) {
+  const gmap::OrbitIndex& vertices =
+      state.store.index_of(*state.program.schema.find("position"));
+  const VertexRecord along = motion.position[vertices.row(state.map.alpha(0, edge))] -
+                             motion.position[vertices.row(edge)];
+  return std::sqrt(dot(along, along));
 }
 
 }  // namespace
@@ -18,42 +30,41 @@ bool finite(const VertexRecord& record) {
 EdgeLengths::EdgeLengths(const State& state, const Motion& motion) {
   const gmap::OrbitIndex& vertices =
       state.store.index_of(*state.program.schema.find("position"));
+  struct Between {
+    Row a = 0, b = 0;
+    DartId dart = gmap::kNoDart;
+  };
+  std::vector<Between> edges;
   for (std::uint32_t i = 0; i < state.map.dart_end(); ++i) {
     const DartId dart{i};
     if (!state.map.alive(dart)) continue;
-    const DartId other = state.map.alpha(0, dart);
-    const Row a = vertices.row(dart), b = vertices.row(other);
-    if (a < b) edges_.push_back({dart, a, b, 0});
+    const Row a = vertices.row(dart), b = vertices.row(state.map.alpha(0, dart));
+    if (a < b) edges.push_back({a, b, dart});
   }
-  const auto key = [](const Edge& edge) { return std::pair(edge.a, edge.b); };
-  std::ranges::sort(edges_, {}, key);
-  edges_.erase(std::ranges::unique(edges_, {}, key).begin(), edges_.end());
-  for (Edge& edge : edges_) {
-    const VertexRecord along = motion.position[edge.b] - motion.position[edge.a];
-    edge.length = std::sqrt(dot(along, along));
-    if (edge.length > 0)
-      shortest_ = shortest_ == 0 ? edge.length : std::min(shortest_, edge.length);
+  const auto ends = [](const Between& edge) { return std::pair(edge.a, edge.b); };
+  std::ranges::sort(edges, {}, ends);
+  edges.erase(std::ranges::unique(edges, {}, ends).begin(), edges.end());
+  for (const Between& edge : edges) {
+    const double length = length_of(state, motion, edge.dart);
+    edges_.push_back({edge.dart, length});
+    if (length > 0) shortest_ = shortest_ == 0 ? length : std::min(shortest_, length);
   }
 }
 
-void EdgeLengths::follow(const State& state) {
-  const gmap::OrbitIndex& vertices =
-      state.store.index_of(*state.program.schema.find("position"));
-  std::erase_if(edges_, [&](const Edge& edge) { return !state.map.alive(edge.dart); });
-  for (Edge& edge : edges_) {
-    edge.a = vertices.row(edge.dart);
-    edge.b = vertices.row(state.map.alpha(0, edge.dart));
-  }
-}
-
-double EdgeLengths::max_elongation(const Motion& motion) const {
-  double largest = edges_.empty() ? 1 : 0;
+double EdgeLengths::max_elongation(const State& state, const Motion& motion) const {
+  double largest = -1;
   for (const Edge& edge : edges_) {
-    if (edge.length == 0) continue;
-    const VertexRecord along = motion.position[edge.b] - motion.position[edge.a];
-    largest = std::max(largest, std::sqrt(dot(along, along)) / edge.length);
+    if (!state.map.alive(edge.dart)) continue;
+    largest = std::max(largest, 0.0);
+    if (edge.length > 0)
+      largest = std::max(largest, length_of(state, motion, edge.dart) / edge.length);
   }
-  return largest;
+  return largest < 0 ? 1 : largest;
+}
+
+bool Guard::finite(const PhasePoint& point, Row row) {
+  return is_finite(point.motion.position[row]) && is_finite(point.motion.velocity[row]) &&
+         is_finite(point.force[row]);
 }
 
 Guard::Finding Guard::look(const PhasePoint& point) {
@@ -77,9 +88,7 @@ Guard::Finding Guard::look(const PhasePoint& point) {
   finding.finite = false;
   for (std::size_t r = 0; r < point.rows(); ++r) {
     finding.row = static_cast<Row>(r);
-    if (!finite(point.motion.position[r]) || !finite(point.motion.velocity[r]) ||
-        !finite(point.force[r]))
-      break;
+    if (!finite(point, static_cast<Row>(r))) break;
     const double square = dot(point.motion.velocity[r], point.motion.velocity[r]);
     if (!std::isfinite(square)) break;
   }

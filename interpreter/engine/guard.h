@@ -11,7 +11,7 @@
 
 namespace gmsim::engine {
 
-/// The edges of a map as pairs of vertex rows, and their lengths when this was made.
+/// The edges of a map, and their lengths when this was made.
 class EdgeLengths {
  public:
   EdgeLengths() = default;
@@ -19,15 +19,12 @@ class EdgeLengths {
 
   /// m; 0 without edges.
   [[nodiscard]] double shortest() const { return shortest_; }
-  /// Largest length over original length; 1 without edges.
-  [[nodiscard]] double max_elongation(const Motion& motion) const;
-  /// Looks the vertices up anew after the map has changed; edges that are gone are forgotten.
-  void follow(const State& state);
+  /// Largest length over original length, of the edges that are still there; 1 without edges.
+  [[nodiscard]] double max_elongation(const State& state, const Motion& motion) const;
 
  private:
   struct Edge {
     DartId dart = gmap::kNoDart;
-    Row a = 0, b = 0;
     double length = 0;
   };
   std::vector<Edge> edges_;
@@ -44,6 +41,8 @@ class Guard {
     double max_speed = 0;   ///< m/s, when finite
   };
   [[nodiscard]] static Finding look(const PhasePoint& point);
+  /// Is everything a number at this row?
+  [[nodiscard]] static bool finite(const PhasePoint& point, Row row);
 
   explicit Guard(double shortest_edge = 0) : shortest_edge_(shortest_edge) {}
   /// A vertex passes the shortest edge within a step. A fast body may do that; a model whose step is

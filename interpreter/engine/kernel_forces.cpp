@@ -51,8 +51,9 @@ bool KernelForces::rebuild() {
   return true;
 }
 
-void KernelForces::refresh(std::span<const DartId> touched) {
-  if (touched.empty() || error_ || !repair(touched)) rebuild();
+void KernelForces::refresh(std::span<const DartId> changed) {
+  listed_anew_ = false;
+  if (changed.empty() || error_ || !repair(changed)) rebuild();
   each_pass([](ForcePass& pass) { pass.unbind(); });
 }
 
@@ -61,9 +62,8 @@ void KernelForces::lay_out() {
   each_pass([&](ForcePass& pass) {
     pass.lay_out(context_.vertices().row_end(), threads == 1 ? 1 : kChunksPerThread * threads);
   });
-  const std::span<const Row> rows = context_.vertices().rows();
-  vertex_of_.assign(rows.begin(), rows.end());
   stale_ = false;
+  listed_anew_ = true;
 }
 
 ForceMoment KernelForces::moment(const Motion& motion, double time, double dt) const {
@@ -79,6 +79,17 @@ bool KernelForces::evaluate(const Motion& motion, double time, double dt,
 bool KernelForces::evaluate_end(const Motion& motion, double time, double dt,
                                 std::span<VertexRecord> force) {
   return run(atomic_ ? *atomic_ : main_, PassKernels::Forces, moment(motion, time, dt), force);
+}
+
+bool KernelForces::evaluate_changes(const Motion& motion, double time, double dt,
+                                    std::span<VertexRecord> force) {
+  // The clock is not that of the last evaluation.
+  if (reads_time()) return evaluate_end(motion, time, dt, force);
+  if (error_) return false;
+  ForcePass& pass = atomic_ ? *atomic_ : main_;
+  const ForceMoment now = moment(motion, time, dt);
+  const auto failure = pass.run_changes(now, context_.state.store, workers_, force);
+  return !failure || fail(*failure, PassKernels::Forces, now);
 }
 
 bool KernelForces::product(const Motion& motion, double time, std::span<const VertexRecord> dx,

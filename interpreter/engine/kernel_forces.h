@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/atomic_forces.h"
 #include "engine/force_bound.h"
 #include "engine/force_context.h"
 #include "engine/force_field.h"
@@ -43,6 +44,8 @@ class KernelForces final : public ForceField {
                 std::span<VertexRecord> force) override;
   bool evaluate_end(const Motion& motion, double time, double dt,
                     std::span<VertexRecord> force) override;
+  bool evaluate_changes(const Motion& motion, double time, double dt,
+                        std::span<VertexRecord> force) override;
   bool potential_energy(const Motion& motion, double time, double& energy) override;
   bool product(const Motion& motion, double time, std::span<const VertexRecord> dx,
                std::span<const VertexRecord> dv, std::span<VertexRecord> out) override;
@@ -53,9 +56,13 @@ class KernelForces final : public ForceField {
   }
   [[nodiscard]] bool reads_time() const override;
   void share_rows(Row rows, RowWork work, const void* context) override;
-  void refresh(std::span<const DartId> touched) override;
+  void refresh(std::span<const DartId> changed) override;
+  [[nodiscard]] std::uint64_t found_again() const override { return found_again_; }
   [[nodiscard]] const ForceContext* context() const override { return &context_; }
   void list_atomic(std::vector<AtomicForce>& out) const override;
+  [[nodiscard]] const AtomicForceChanges* atomic_changes() const override {
+    return listed_anew_ ? nullptr : &changes_;
+  }
   [[nodiscard]] std::span<const VertexRecord> atomic_slots() const override {
     return atomic_ ? atomic_->slots() : std::span<const VertexRecord>{};
   }
@@ -83,17 +90,20 @@ class KernelForces final : public ForceField {
   // but the passes have to be laid out again.
 
   /// False when an interaction cannot be repaired.
-  bool repair(std::span<const DartId> touched);
-  void repair(InteractionTables& of, std::span<const DartId> touched);
-  void find_again(Repair& repair, std::span<const DartId> hooks);
-  /// Rows of the vertices that hold or held a touched dart, into `changed_`.
-  void find_changed(std::span<const DartId> touched);
-  void remember_vertices(std::span<const DartId> touched);
+  bool repair(std::span<const DartId> changed);
+  void repair(InteractionTables& of, std::span<const DartId> changed);
+  void find_again(Repair& repair, std::vector<DartId>& hooks);
   void take_out(Repair& repair, DartId key);
   void put_in(Repair& repair, DartId key);
   void dissolve(Repair& repair, std::uint32_t shape, std::uint32_t group);
   void dissolve_between(Repair& repair, std::uint32_t shape, std::array<Row, 2> ends);
   void merge_again(Repair& repair);
+  // What becomes of the list of atomic forces (kernel_forces_atomic.cpp).
+  void note_gone(const InteractionTables& of, InteractionTables::Place place);
+  void note_placed(const InteractionTables& of, DartId key);
+  void list_placed();
+  void list_match(const InteractionTables& of, InteractionTables::Place place,
+                  std::vector<AtomicForce>& out) const;
   /// Is one thread to do all of it?
   [[nodiscard]] bool alone() const { return workers_.threads.count() == 1 || probe_.alone(); }
   bool run(ForcePass& pass, PassKernels kernels, const ForceMoment& moment,
@@ -112,9 +122,11 @@ class KernelForces final : public ForceField {
   std::vector<std::unique_ptr<InteractionTables>> interactions_;
   ForcePass main_;
   std::unique_ptr<ForcePass> atomic_;     // null when nobody asks for single forces
-  std::vector<Row> vertex_of_;            // by dart, as of the last refresh
-  std::vector<Row> changed_;
+  AtomicForceChanges changes_;            // of the last refresh, unless all are listed anew
+  bool listed_anew_ = true;
+  std::vector<std::pair<std::uint32_t, DartId>> placed_;  // interaction and key of matches put in
   std::vector<std::uint32_t> between_;    // work space
+  std::uint64_t found_again_ = 0;
   bool stale_ = false;
   ThreadProbe probe_;
   ForceWorkers workers_;

@@ -1,38 +1,55 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "engine/atomic_forces.h"
 #include "engine/kernel_forces.h"
 
 namespace gmsim::engine {
 
-namespace {
-
-/// By root: how many darts that a match names share its force.
-std::vector<double> shares(const compile::Shape& shape) {
-  std::vector<double> count(shape.forces.size(), 0);
-  for (const compile::ForceTarget& target : shape.targets) count[target.root] += 1;
-  for (double& c : count) c = 1 / c;
-  return count;
+void KernelForces::note_gone(const InteractionTables& of, InteractionTables::Place place) {
+  if (!atomic_ || of.body().external) return;
+  const MatchTable& table = of.table(place.shape);
+  for (const DartId dart : table.targets(place.row))
+    changes_.gone.push_back({dart, of.number(), table.key(place.row)});
 }
 
-}  // namespace
+void KernelForces::note_placed(const InteractionTables& of, DartId key) {
+  if (atomic_ && !of.body().external) placed_.emplace_back(of.number(), key);
+}
+
+void KernelForces::list_placed() {
+  changes_.come.clear();
+  std::sort(placed_.begin(), placed_.end());
+  placed_.erase(std::unique(placed_.begin(), placed_.end()), placed_.end());
+  for (const auto& [number, key] : placed_) {
+    const InteractionTables& of = *interactions_[number];
+    if (of.place(key).shape != InteractionTables::kNowhere)
+      list_match(of, of.place(key), changes_.come);
+  }
+}
 
 void KernelForces::list_atomic(std::vector<AtomicForce>& out) const {
   if (!atomic_) return;
   for (const auto& of : interactions_) {
     if (of->body().external) continue;
-    std::vector<std::vector<double>> shares_of;
-    for (std::size_t shape = 0; shape < of->shape_count(); ++shape)
-      shares_of.push_back(shares(of->shape(shape)));
-    of->in_order([&](std::uint32_t shape, std::uint32_t row) {
-      const std::span<const DartId> darts = of->table(shape).targets(row);
-      const auto& targets = of->shape(shape).targets;
-      for (std::size_t t = 0; t < targets.size(); ++t) {
-        const SignedSlot slot = atomic_->slot(*of, shape, targets[t].root, row);
-        const double share = shares_of[shape][targets[t].root];
-        out.push_back({darts[t], targets[t].orbit, of->body().id, number_of(slot),
-                       is_negative(slot) ? -share : share});
-      }
+    of->in_order([&](std::uint32_t shape, std::uint32_t row) { list_match(*of, {shape, row}, out); });
+  }
+}
+
+void KernelForces::list_match(const InteractionTables& of, InteractionTables::Place place,
+                              std::vector<AtomicForce>& out) const {
+  const MatchTable& table = of.table(place.shape);
+  const std::span<const DartId> darts = table.targets(place.row);
+  const auto& targets = of.shape(place.shape).targets;
+  for (std::uint32_t t = 0; t < targets.size(); ++t) {
+    // Targets that are one root's share its force.
+    const auto sharing = std::count_if(targets.begin(), targets.end(), [&](const auto& other) {
+      return other.root == targets[t].root;
     });
+    const double share = 1 / static_cast<double>(sharing);
+    const SignedSlot slot = atomic_->slot(of, place.shape, targets[t].root, place.row);
+    out.push_back({darts[t], targets[t].orbit, of.body().id, number_of(slot),
+                   is_negative(slot) ? -share : share, of.number(), table.key(place.row), t});
   }
 }
 

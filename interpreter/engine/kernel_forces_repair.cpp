@@ -4,20 +4,20 @@
 // order of sums come out as if they had been made anew.
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "engine/kernel_forces.h"
 #include "gmap/orbit_walk.h"
 
 namespace gmsim::engine {
 
-bool KernelForces::repair(std::span<const DartId> touched) {
+bool KernelForces::repair(std::span<const DartId> changed) {
   for (const auto& of : interactions_)
     if (!of->repairable()) return false;
-  find_changed(touched);
+  changes_.gone.clear();
+  placed_.clear();
   each_pass([&](ForcePass& pass) { pass.grow(context_.vertices().row_end()); });
   for (const auto& of : interactions_) {
-    repair(*of, touched);
+    repair(*of, changed);
     if (error_) return true;
   }
   each_pass([&](const ForcePass& pass) { stale_ = stale_ || pass.crowded(); });
@@ -25,65 +25,40 @@ bool KernelForces::repair(std::span<const DartId> touched) {
     for (const auto& of : interactions_) of->pack();
     lay_out();
   } else {
-    remember_vertices(touched);
+    list_placed();
   }
   return true;
 }
 
-void KernelForces::find_changed(std::span<const DartId> touched) {
-  changed_.clear();
-  for (const DartId dart : touched) {
-    if (types::index(dart) < vertex_of_.size()) changed_.push_back(vertex_of_[types::index(dart)]);
-    if (context_.state.map.alive(dart)) changed_.push_back(context_.vertices().row(dart));
-  }
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  if (!changed_.empty() && changed_.back() == gmap::kNoRow) changed_.pop_back();
-}
-
-void KernelForces::remember_vertices(std::span<const DartId> touched) {
-  const gmap::GMap& map = context_.state.map;
-  const gmap::OrbitIndex& vertices = context_.vertices();
-  vertex_of_.resize(map.dart_end(), gmap::kNoRow);
-  for (const DartId dart : touched) {
-    if (!map.alive(dart)) continue;
-    if (vertex_of_[types::index(dart)] == vertices.row(dart)) continue;  // and all of its vertex
-    gmap::for_each_dart(map, vertices.type(), dart,
-                        [&](DartId d) { vertex_of_[types::index(d)] = vertices.row(d); });
-  }
-}
-
 // ---- one interaction ----------------------------------------------------------------------------
 
-void KernelForces::repair(InteractionTables& of, std::span<const DartId> touched) {
+void KernelForces::repair(InteractionTables& of, std::span<const DartId> changed) {
   std::vector<DartId> keys, hooks;
-  for (const Row vertex : changed_) {
-    of.watch().for_each(vertex, [&](DartId key) {
-      if (of.place(key).shape != InteractionTables::kNowhere) keys.push_back(key);
-    });
-  }
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  for (const DartId key : keys) hooks.push_back(of.hook(of.place(key)));
-  for (const DartId dart : touched)
-    if (context_.state.map.alive(dart)) of.hooks_near(dart, hooks);
+  of.watch().find_stale(changed, keys, hooks);
   Repair repair{&of, std::vector<std::vector<DartId>>(of.shape_count())};
-  for (const DartId key : keys) take_out(repair, key);
+  for (const DartId key : keys) {
+    hooks.push_back(key);  // there may be a match where a condition stood against it
+    if (of.place(key).shape == InteractionTables::kNowhere) continue;
+    hooks.push_back(of.hook(of.place(key)));
+    take_out(repair, key);
+  }
   find_again(repair, hooks);
   merge_again(repair);
 }
 
-void KernelForces::find_again(Repair& repair, std::span<const DartId> hooks) {
+void KernelForces::find_again(Repair& repair, std::vector<DartId>& hooks) {
   InteractionTables& of = *repair.of;
   const gmap::GMap& map = context_.state.map;
-  std::set<DartId> seen;
-  for (const DartId hook : hooks) {
-    if (!map.alive(hook)) continue;
-    const DartId smallest = gmap::smallest_dart(map, of.body().orbit, hook);
-    if (!seen.insert(smallest).second) continue;
+  for (DartId& hook : hooks)
+    hook = map.alive(hook) ? gmap::smallest_dart(map, of.body().orbit, hook) : gmap::kNoDart;
+  std::sort(hooks.begin(), hooks.end());
+  hooks.erase(std::unique(hooks.begin(), hooks.end()), hooks.end());
+  if (!hooks.empty() && hooks.back() == gmap::kNoDart) hooks.pop_back();
+  found_again_ += hooks.size();
+  for (const DartId smallest : hooks) {
     if (of.place(smallest).shape != InteractionTables::kNowhere) take_out(repair, smallest);
     std::optional<DartId> key;
-    if ((error_ = of.find_at(hook, key))) return;
+    if ((error_ = of.find_at(smallest, key))) return;
     if (of.shape_count() > repair.regroup.size()) stale_ = true;  // a table without a block
     if (key) put_in(repair, *key);
   }
@@ -100,6 +75,7 @@ void KernelForces::take_out(Repair& repair, DartId key) {
     each_pass([&](ForcePass& pass) {
       if (!pass.merges(of, place.shape)) pass.unlink(of, place.shape, place.row);
     });
+    note_gone(of, place);
   }
   of.remove(key);
 }
@@ -112,6 +88,7 @@ void KernelForces::put_in(Repair& repair, DartId key) {
     if (!pass.merges(of, place.shape)) pass.link(of, place.shape, place.row);
   });
   const MergedTable* merged = of.merged(place.shape);
+  note_placed(of, key);
   if (merged == nullptr) return;
   const MatchTable& table = of.table(place.shape);
   const auto& ends = merged->plan().ends;

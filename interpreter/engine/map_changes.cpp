@@ -126,12 +126,15 @@ void MapChanges::take_batch() {
   requests_.erase(requests_.begin(), rest);
 }
 
-MapChanges::Diagnostic MapChanges::tear(const Motion& motion, double time, double dt,
-                                        const std::function<void()>& sync, std::uint32_t pass,
-                                        TearOutcome& outcome) {
+MapChanges::Diagnostic MapChanges::judge(const Motion& motion, double time, double dt,
+                                         const std::function<void()>& sync, std::uint32_t pass) {
   requests_.clear();
   if (Diagnostic error = criteria_.judge(motion, time, dt, sync, requests_)) return error;
   drop_spent(pass);
+  return std::nullopt;
+}
+
+MapChanges::Diagnostic MapChanges::tear(TearOutcome& outcome) {
   // A batch of which nothing fits any more leaves the map as it was judged: the next one's turn.
   while (!requests_.empty() && outcome.effects.touched.empty() && !outcome.error) {
     take_batch();

@@ -23,18 +23,24 @@ class MapChanges {
 
   /// Finds the matches of all criteria anew: at the start and after every change of the map.
   Diagnostic rebuild() { return criteria_.rebuild(); }
+  /// The same where the map changed.
+  Diagnostic repair(const Effects& effects, const MapDelta& delta, std::uint64_t& looked_at) {
+    return criteria_.repair(effects, delta, looked_at);
+  }
 
   /// Applies the rewrites of every step; the store must be in step with the motion.
   Diagnostic rewrite(Effects& effects);
   [[nodiscard]] bool has_rewrites() const { return !model_.rewrites.empty(); }
   [[nodiscard]] bool has_criteria() const { return !model_.tears.empty(); }
 
-  /// Judges all criteria, which the last evaluation of forces must have been for, and applies what
-  /// they ask for. `sync` puts the motion into the store, which happens only if something is asked for.
-  /// Of pairings with `refresh` only the strongest request, with its ties, is applied; as long as
-  /// that changes something, another pass follows, for them alone, on the forces of the new map.
-  Diagnostic tear(const Motion& motion, double time, double dt, const std::function<void()>& sync,
-                  std::uint32_t pass, TearOutcome& outcome);
+  /// Judges all criteria, which the last evaluation of forces must have been for. `sync` puts the
+  /// motion into the store, which happens only if something is asked for.
+  Diagnostic judge(const Motion& motion, double time, double dt, const std::function<void()>& sync,
+                   std::uint32_t pass);
+  /// Applies what they ask for. Of pairings with `refresh` only the strongest request, with its ties,
+  /// is applied; as long as that changes something, another pass follows, for them alone, on the
+  /// forces of the new map.
+  Diagnostic tear(TearOutcome& outcome);
   [[nodiscard]] bool judges_again() const;
 
   [[nodiscard]] Criteria& criteria() { return criteria_; }

@@ -102,6 +102,7 @@ class Run {
     }
     rewriter_.set_value(assign.embedding, dart, value);
     ++outcome.effects.written_values;
+    outcome.effects.written.push_back({decl.orbit, dart});
     return true;
   }
 

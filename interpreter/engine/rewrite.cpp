@@ -218,13 +218,14 @@ void Rewriter::Implementation::apply(const compile::Rule& rule, std::span<const 
 }
 
 Rewriter::Implementation::Counts Rewriter::Implementation::count_effects() const {
-  return {effects_->touched.size(), effects_->created_darts, effects_->removed_darts,
-          effects_->written_values};
+  return {effects_->touched.size(), effects_->written.size(), effects_->created_darts,
+          effects_->removed_darts, effects_->written_values};
 }
 
 /// Takes back what the effects say of the rewrite at hand.
 void Rewriter::Implementation::forget_effects(const Counts& before) {
   effects_->touched.resize(before.touched);
+  effects_->written.resize(before.written);
   effects_->created_darts = before.created_darts;
   effects_->removed_darts = before.removed_darts;
   effects_->written_values = before.written_values;

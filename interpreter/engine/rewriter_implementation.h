@@ -38,7 +38,7 @@ class Rewriter::Implementation {
   using Diagnostic = std::optional<support::Diagnostic>;
   /// Of the effects before the rewrite at hand, beside those of the orbits.
   struct Counts {
-    std::size_t touched = 0;
+    std::size_t touched = 0, written = 0;
     std::uint64_t created_darts = 0, removed_darts = 0, written_values = 0;
   };
 

@@ -43,8 +43,8 @@ Totals Simulation::totals() { return implementation_->totals(); }
 const StabilityLimit& Simulation::limit() const { return implementation_->limit(); }
 double Simulation::max_elongation() const { return implementation_->max_elongation(); }
 void Simulation::sync() { implementation_->sync(); }
-bool Simulation::refresh(std::span<const DartId> touched, support::Diagnostics& diagnostics) {
-  return implementation_->refresh(touched, diagnostics);
+bool Simulation::refresh(support::Diagnostics& diagnostics) {
+  return implementation_->refresh(diagnostics);
 }
 std::optional<std::vector<Simulation::CriterionReport>> Simulation::survey(
     support::Diagnostics& diagnostics) {

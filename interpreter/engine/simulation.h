@@ -29,6 +29,21 @@ struct Totals {
   std::array<double, 3> angular_momentum{};  ///< kg m^2/s, about the origin
 };
 
+/// What it took to change the map at the end of a step. Judging the criteria, which happens whether or
+/// not something tears, is left out.
+struct ChangeCost {
+  double rewrite = 0;   ///< s: rules applied, orbits and values repaired
+  double tables = 0;    ///< s: matches of interactions, their groups and lists of forces
+  double vertices = 0;  ///< s: masses, holds, positions and velocities of changed vertices
+  double forces = 0;    ///< s: forces on the new map
+  double criteria = 0;  ///< s: matches of criteria, lists and sums of forces that they read
+  std::uint64_t touched_darts = 0;
+  std::uint64_t matches = 0;            ///< of interactions that were found again
+  std::uint64_t criterion_matches = 0;  ///< the same of criteria
+
+  [[nodiscard]] double total() const { return rewrite + tables + vertices + forces + criteria; }
+};
+
 /// What one step did.
 struct StepReport {
   double time = 0;                 ///< s, at the end of the step
@@ -39,6 +54,7 @@ struct StepReport {
   std::vector<TearEvent> events;   ///< what tore at its end
   std::uint64_t dropped = 0;       ///< changes that criteria asked for and that did not fit any more
   bool map_changed = false;
+  ChangeCost cost;
 };
 
 struct SimulationOptions {
@@ -85,9 +101,8 @@ class Simulation {
   [[nodiscard]] double max_elongation() const;
   /// Puts positions, velocities and the clock into the state's store.
   void sync();
-  /// Takes over a state whose map or values were rewritten after sync(); `touched` as in Effects.
-  /// False after an error.
-  bool refresh(std::span<const DartId> touched, support::Diagnostics& diagnostics);
+  /// Takes over a state whose map or values were rewritten after sync(). False after an error.
+  bool refresh(support::Diagnostics& diagnostics);
   /// What a line of `tear:` has seen.
   struct CriterionReport {
     NearestMatch nearest;              ///< since the start

@@ -14,6 +14,7 @@
 #include "engine/integrators/phase_point.h"
 #include "engine/integrators/prescribed_motion.h"
 #include "engine/integrators/step_control.h"
+#include "engine/integrators/vertex_masses.h"
 #include "engine/map_changes.h"
 #include "engine/simulation.h"
 #include "engine/stability.h"
@@ -27,7 +28,7 @@ class Simulation::Implementation {
 
   // simulation_setup.cpp
   bool prepare(support::Diagnostics& diagnostics);
-  bool refresh(std::span<const DartId> touched, support::Diagnostics& diagnostics);
+  bool refresh(support::Diagnostics& diagnostics);
 
   // simulation_step.cpp
   std::optional<StepReport> step(double until, support::Diagnostics& diagnostics);
@@ -41,7 +42,9 @@ class Simulation::Implementation {
   void sync();
   [[nodiscard]] std::uint64_t state_hash() const;
   [[nodiscard]] std::string explain() const;
-  [[nodiscard]] double max_elongation() const { return edges_.max_elongation(now_.motion); }
+  [[nodiscard]] double max_elongation() const {
+    return edges_.max_elongation(state_, now_.motion);
+  }
 
   [[nodiscard]] double time() const { return now_.time; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
@@ -56,6 +59,7 @@ class Simulation::Implementation {
   bool hold_vertices(support::Diagnostics& diagnostics);
   bool weigh_vertices(support::Diagnostics& diagnostics);
   void load_motion();
+  void load_vertex(Row row);
   /// Puts prescribed vertices where they are at this time.
   bool prescribe_now(support::Diagnostics& diagnostics);
   bool first_forces(support::Diagnostics& diagnostics);
@@ -73,6 +77,7 @@ class Simulation::Implementation {
   bool advance_fixed(double until, support::Diagnostics& diagnostics);
   bool advance_adaptive(double until, StepReport& report, support::Diagnostics& diagnostics);
   bool try_step(double dt);
+  [[nodiscard]] bool stiffened_by_tears(double dt);
   bool review(double dt, support::Diagnostics& diagnostics);
   /// Null when the step may count.
   [[nodiscard]] std::optional<support::Diagnostic> objection(double dt);
@@ -80,8 +85,20 @@ class Simulation::Implementation {
   // simulation_map.cpp
   /// The end of a step: what rules do to the map, and what follows for forces and masses.
   bool change_map(StepReport& report, support::Diagnostics& diagnostics);
-  bool adopt_map(std::span<const DartId> touched, support::Diagnostics& diagnostics);
+  /// After changes anywhere.
+  bool adopt_map(support::Diagnostics& diagnostics);
+  /// The same at the cost of what changed alone.
+  bool adopt_changes(const Effects& effects, ChangeCost& cost, support::Diagnostics& diagnostics);
+  bool adopt_vertices(const MapDelta& delta, support::Diagnostics& diagnostics);
+  bool hold_vertex(Row row, support::Diagnostics& diagnostics);
   bool find_criteria(support::Diagnostics& diagnostics);
+  /// The store reads the motion of vertices from now_, until it is taken back. Cheaper than sync()
+  /// where few vertices are looked at.
+  void lend_motion();
+  void take_motion_back();
+
+  // simulation_report.cpp
+  void set_clock();
 
   // simulation_problems.cpp
   [[nodiscard]] support::Diagnostic above_limit(double dt) const;
@@ -113,7 +130,7 @@ class Simulation::Implementation {
 
   std::vector<bool> held_;       // by row: fixed or prescribed
   std::vector<bool> fixed_;
-  std::vector<double> masses_;   // kg by row
+  VertexMasses masses_;
   EdgeLengths edges_;
   Guard guard_;
   StabilityLimit limit_;
@@ -129,6 +146,7 @@ class Simulation::Implementation {
   std::uint64_t next_review_ = 0;   // step
   std::uint64_t next_look_ = 0;     // step before which suspicions are not followed
   bool limit_fell_ = false;         // below the step, and that was said
+  std::vector<Row> torn_;           // vertices that changed since the limit was looked at
 };
 
 }  // namespace gmsim::engine

@@ -43,7 +43,7 @@ void Simulation::Implementation::dense_positions(double time, std::vector<double
 double Simulation::Implementation::free_kinetic_energy(const PhasePoint& point) const {
   double twice = 0;
   for (std::size_t r = 0; r < point.rows(); ++r)
-    if (!held_[r]) twice += masses_[r] * dot(point.motion.velocity[r], point.motion.velocity[r]);
+    if (!held_[r]) twice += masses_.masses()[r] * dot(point.motion.velocity[r], point.motion.velocity[r]);
   return 0.5 * twice;
 }
 
@@ -52,8 +52,8 @@ Totals Simulation::Implementation::totals() {
   forces_->potential_energy(now_.motion, now_.time, totals.potential);
   VertexRecord momentum, angular;
   for (std::size_t r = 0; r < now_.rows(); ++r) {
-    const VertexRecord p = masses_[r] * now_.motion.velocity[r];
-    totals.mass += masses_[r];
+    const VertexRecord p = masses_.masses()[r] * now_.motion.velocity[r];
+    totals.mass += masses_.masses()[r];
     totals.kinetic += 0.5 * dot(now_.motion.velocity[r], p);
     momentum = momentum + p;
     angular = angular + cross(now_.motion.position[r], p);
@@ -73,6 +73,10 @@ void Simulation::Implementation::sync() {
     position.set(row, std::array{x.x, x.y, x.z});
     velocity.set(row, std::array{v.x, v.y, v.z});
   }
+  set_clock();
+}
+
+void Simulation::Implementation::set_clock() {
   state_.time = now_.time;
   state_.dt = dt();
   state_.step = steps_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <utility>
 
-#include "engine/integrators/vertex_masses.h"
 #include "engine/simulation_implementation.h"
 #include "support/check.h"
 
@@ -34,6 +33,7 @@ Simulation::Implementation::Implementation(State& state, Model model, Integrator
       method_(make_integrator(*info_)),
       estimator_(*forces_, *method_),
       control_(method_->embedded_order()),
+      masses_(state),
       steps_(state.step) {}
 
 bool Simulation::Implementation::prepare(support::Diagnostics& diagnostics) {
@@ -65,9 +65,8 @@ bool Simulation::Implementation::prepare(support::Diagnostics& diagnostics) {
   return !info_->adaptive || choose_first_step(diagnostics);
 }
 
-bool Simulation::Implementation::refresh(std::span<const DartId> touched,
-                                         support::Diagnostics& diagnostics) {
-  return adopt_map(touched, diagnostics) && find_limit(diagnostics);
+bool Simulation::Implementation::refresh(support::Diagnostics& diagnostics) {
+  return adopt_map(diagnostics) && find_limit(diagnostics);
 }
 
 bool Simulation::Implementation::prescribe_now(support::Diagnostics& diagnostics) {
@@ -78,53 +77,52 @@ bool Simulation::Implementation::prescribe_now(support::Diagnostics& diagnostics
 }
 
 bool Simulation::Implementation::hold_vertices(support::Diagnostics& diagnostics) {
-  const gmap::OrbitIndex& index = vertices();
-  fixed_.assign(index.row_end(), false);
-  const std::optional<EmbeddingId> fixed = state_.program.schema.find("fixed");
-  if (fixed && state_.store.in_use(*fixed))
-    for (Row row = 0; row < index.row_end(); ++row)
-      fixed_[row] = index.alive(row) && state_.store.get(*fixed, index.smallest(row))[0] != 0;
-  held_ = fixed_;
-  for (const Row row : prescribed_.rows()) {
-    held_[row] = true;
-    if (!fixed_[row]) continue;
-    support::Diagnostic problem{support::DiagnosticKind::Conflict,
-                                "a vertex is both fixed and moved"};
-    if (!model_.motions.empty()) problem.place = model_.motions.front().span;
-    problem.notes.push_back(row_text(row));
-    diagnostics.report(std::move(problem));
-    return false;
-  }
+  fixed_.assign(vertices().row_end(), false);
+  held_.assign(vertices().row_end(), false);
+  for (Row row = 0; row < vertices().row_end(); ++row)
+    if (!hold_vertex(row, diagnostics)) return false;
   return true;
+}
+
+bool Simulation::Implementation::hold_vertex(Row row, support::Diagnostics& diagnostics) {
+  const std::optional<EmbeddingId> fixed = state_.program.schema.find("fixed");
+  fixed_[row] = fixed && vertices().alive(row) && state_.store.in_use(*fixed) &&
+                state_.store.get(*fixed, vertices().smallest(row))[0] != 0;
+  held_[row] = fixed_[row] || prescribed_.moves(row);
+  if (!fixed_[row] || !prescribed_.moves(row)) return true;
+  support::Diagnostic problem{support::DiagnosticKind::Conflict,
+                              "a vertex is both fixed and moved"};
+  if (!model_.motions.empty()) problem.place = model_.motions.front().span;
+  problem.notes.push_back(row_text(row));
+  diagnostics.report(std::move(problem));
+  return false;
 }
 
 bool Simulation::Implementation::weigh_vertices(support::Diagnostics& diagnostics) {
   std::optional<support::Diagnostic> problem;
-  masses_ = vertex_masses(state_, problem);
-  std::vector<double> inverse;
-  if (!problem) inverse = inverse_masses(state_, masses_, held_, problem);
-  if (problem) {
-    diagnostics.report(std::move(*problem));
-    return false;
+  if (masses_.weigh_all(held_, problem)) {
+    equations_.set_inverse_mass(masses_.inverse());
+    return true;
   }
-  equations_.set_inverse_mass(std::move(inverse));
-  return true;
+  diagnostics.report(std::move(*problem));
+  return false;
 }
 
 void Simulation::Implementation::load_motion() {
-  const gmap::OrbitIndex& index = vertices();
-  now_.resize(index.row_end());
-  next_.resize(index.row_end());
-  method_->resize(index.row_end());
+  const Row rows = vertices().row_end();
+  now_.resize(rows);
+  method_->resize(rows);
   now_.time = state_.time;
-  for (Row row = 0; row < index.row_end(); ++row) {
-    now_.motion.position[row] = now_.motion.velocity[row] = {};
-    if (!index.alive(row)) continue;
-    now_.motion.position[row] = record_of(state_.store.column(position_).get(row));
-    if (!fixed_[row])
-      now_.motion.velocity[row] = record_of(state_.store.column(velocity_).get(row));
-  }
+  for (Row row = 0; row < rows; ++row) load_vertex(row);
   next_ = now_;
+}
+
+void Simulation::Implementation::load_vertex(Row row) {
+  now_.motion.position[row] = now_.motion.velocity[row] = {};
+  if (!vertices().alive(row)) return;
+  now_.motion.position[row] = record_of(state_.store.column(position_).get(row));
+  if (!fixed_[row])
+    now_.motion.velocity[row] = record_of(state_.store.column(velocity_).get(row));
 }
 
 bool Simulation::Implementation::first_forces(support::Diagnostics& diagnostics) {

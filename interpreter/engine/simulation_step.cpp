@@ -130,13 +130,22 @@ std::optional<support::Diagnostic> Simulation::Implementation::objection(double 
   return std::nullopt;
 }
 
+/// Elements that are torn apart keep the element-wise bound. Only a longer step has to fear that
+/// vertices with less mass swing faster than any before.
+bool Simulation::Implementation::stiffened_by_tears(double dt) {
+  const std::vector<Row> torn = std::exchange(torn_, {});
+  if (torn.empty() || dt / substeps_ <= limit_.dt) return false;
+  return estimator_.has_stiffened_at(torn, now_, equations_.inverse_mass());
+}
+
 bool Simulation::Implementation::review(double dt, support::Diagnostics& diagnostics) {
-  if (steps_ < next_review_) return true;
+  const bool stiffer = stiffened_by_tears(dt);
+  if (steps_ < next_review_ && !stiffer) return true;
   next_review_ = steps_ + std::clamp<std::uint64_t>(steps_, 1, kReviewEvery);
   double potential = 0;
   if (forces_->potential_energy(now_.motion, now_.time, potential))
     guard_.note_energy(free_kinetic_energy(now_), potential);
-  if (!estimator_.has_stiffened(now_, equations_.inverse_mass())) return true;
+  if (!stiffer && !estimator_.has_stiffened(now_, equations_.inverse_mass())) return true;
   if (!find_limit(diagnostics)) return false;
   if (info_->adaptive) return true;
   if (settings_.on_unstable == OnUnstable::Substep)

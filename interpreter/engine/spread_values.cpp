@@ -190,6 +190,7 @@ void ValueSpreader::store_assigned(const Column& column) {
   for (std::size_t k = 0; k < own_.size(); ++k) {
     write(column, own_rows_[k],
           numbers_.subspan(assigned_[own_[k]].begin, column.values->stride()));
+    effects_->written.push_back({column.index->type(), assigned_[own_[k]].dart});
   }
 }
 

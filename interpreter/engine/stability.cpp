@@ -15,6 +15,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Lanczos' value comes from below.
 constexpr double kSafety = 1.01;
 constexpr std::uint32_t kMostProducts = 120;
+constexpr std::uint32_t kLocalProducts = 8;
+/// Less than this is no other mode.
+constexpr double kStiffer = 1.02;
 /// Growth that is rounding.
 constexpr double kNeutral = 1 + 1e-9;
 
@@ -152,7 +155,17 @@ bool StabilityEstimator::has_stiffened(const PhasePoint& point,
   for (const VertexRecord& record : turned) square += dot(record, record);
   if (square == 0) return false;
   for (std::size_t r = 0; r < top_.size(); ++r) top_[r] = 1 / std::sqrt(square) * turned[r];
-  return rayleigh_quotient(stiffness, top_) > 1.02 * top_stiffness_;
+  return rayleigh_quotient(stiffness, top_) > kStiffer * top_stiffness_;
+}
+
+bool StabilityEstimator::has_stiffened_at(std::span<const Row> vertices, const PhasePoint& point,
+                                          std::span<const double> inverse_mass) {
+  if (top_stiffness_ <= 0) return true;
+  top_.resize(inverse_mass.size());  // new vertices take no part in the old mode
+  std::vector<double> start(inverse_mass.size(), 0.0);
+  for (const Row vertex : vertices) start[vertex] = inverse_mass[vertex];
+  LinearisedModel model(field_, point, inverse_mass);
+  return largest_eigenvalue(model.stiffness(), start, kLocalProducts) > kStiffer * top_stiffness_;
 }
 
 }  // namespace gmsim::engine

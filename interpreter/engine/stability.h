@@ -36,6 +36,10 @@ class StabilityEstimator {
   /// A look at the stiffest mode of the last estimate, for two products: has it become stiffer by
   /// 2 % or more?
   [[nodiscard]] bool has_stiffened(const PhasePoint& point, std::span<const double> inverse_mass);
+  /// A look at the modes of these vertices, after the map has changed there, for a few products: is
+  /// one of them stiffer by 2 % or more than the stiffest mode of the last estimate?
+  [[nodiscard]] bool has_stiffened_at(std::span<const Row> vertices, const PhasePoint& point,
+                                      std::span<const double> inverse_mass);
 
  private:
   void global_limit(const PhasePoint& point, std::span<const double> inverse_mass,

@@ -173,6 +173,18 @@ SpectrumEnds spectrum_ends(const SymmetricOperator& apply, std::span<const doubl
   return ends;
 }
 
+double largest_eigenvalue(const SymmetricOperator& apply, std::span<const double> start,
+                          std::uint32_t steps) {
+  Vector first = start_vector(start);
+  const double length = std::sqrt(product(first, first));
+  if (length == 0) return 0;
+  scale(first, 1 / length);
+  Tridiagonal t;
+  const bool done = recurrence(apply, first, t,
+                               [&](std::size_t j, const Vector&) { return j + 1 < steps; });
+  return done ? t.eigenvalue(t.diagonal.size() - 1) : 0;
+}
+
 double rayleigh_quotient(const SymmetricOperator& apply, std::span<const VertexRecord> vector) {
   Vector image(vector.size());
   if (!apply(vector, image)) return 0;

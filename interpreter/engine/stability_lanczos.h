@@ -32,6 +32,12 @@ struct SpectrumEnds {
                                          std::span<const double> free,
                                          std::uint32_t most_products);
 
+/// The largest eigenvalue after so many steps (products) of Lanczos' method that starts in the rows
+/// where `start` is not 0: of the modes in which they take part. Comes from below; 0 when a product
+/// failed.
+[[nodiscard]] double largest_eigenvalue(const SymmetricOperator& apply,
+                                        std::span<const double> start, std::uint32_t steps);
+
 /// Rayleigh quotient v . A v of a vector of length 1.
 [[nodiscard]] double rayleigh_quotient(const SymmetricOperator& apply,
                                        std::span<const VertexRecord> vector);

@@ -116,7 +116,7 @@ void Tearing::run(const TearRequest& request, DartId dart, TearOutcome& outcome)
     return;
   }
   // An operation may find nothing left to do: nothing happened, which is no event.
-  if (done.effects.applications == 0) return;
+  if (done.effects.nothing()) return;
   if (const gmap::OrbitRepair* vertices = done.effects.find(OrbitType::cell(0, state.map.dimension()))) {
     event.split = vertices->split;
     event.created = vertices->created;

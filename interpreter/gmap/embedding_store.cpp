@@ -9,6 +9,7 @@ namespace gmsim::gmap {
 
 void EmbeddingColumn::before_change(Row row, Journal* journal) {
   GMSIM_CHECK(row < row_end(), "row outside the column");
+  if (source_ != nullptr) fetch(row);
   if (journal != nullptr) journal->record(*this, row);
 }
 
@@ -27,6 +28,7 @@ void EmbeddingColumn::clear(Row row, Journal* journal) {
 
 void EmbeddingColumn::copy(Row from, Row to, Journal* journal) {
   GMSIM_CHECK(from < row_end(), "row outside the column");
+  if (source_ != nullptr) fetch(from);
   before_change(to, journal);
   std::copy_n(data_.begin() + std::ptrdiff_t{from} * stride_, stride_,
               data_.begin() + std::ptrdiff_t{to} * stride_);
@@ -39,8 +41,38 @@ void EmbeddingColumn::resize(Row row_end, Journal* journal) {
   present_.resize(row_end);
 }
 
+std::span<const double> EmbeddingColumn::data() const {
+  GMSIM_CHECK(source_ == nullptr, "the values are elsewhere");
+  return data_;
+}
+
+std::span<double> EmbeddingColumn::data() {
+  GMSIM_CHECK(source_ == nullptr, "the values are elsewhere");
+  return data_;
+}
+
+void EmbeddingColumn::read_from(const double* records, std::uint32_t pitch, Row rows) {
+  GMSIM_CHECK(pitch >= stride_ && rows <= row_end(), "records and column differ");
+  source_ = records;
+  pitch_ = pitch;
+  source_rows_ = rows;
+  if (++epoch_ == 0) {
+    fetched_.clear();
+    epoch_ = 1;
+  }
+  if (fetched_.size() < rows) fetched_.resize(rows);
+}
+
+void EmbeddingColumn::fetch(Row row) const {
+  if (row >= source_rows_ || fetched_[row] == epoch_) return;
+  fetched_[row] = epoch_;
+  std::copy_n(source_ + std::size_t{row} * pitch_, stride_,
+              data_.begin() + std::ptrdiff_t{row} * stride_);
+}
+
 std::size_t EmbeddingColumn::memory_bytes() const {
-  return sizeof(*this) + data_.capacity() * sizeof(double) + present_.capacity();
+  return sizeof(*this) + data_.capacity() * sizeof(double) + present_.capacity() +
+         fetched_.capacity() * sizeof(std::uint32_t);
 }
 
 EmbeddingStore::EmbeddingStore(const EmbeddingSchema& schema, const GMap& map)

@@ -23,6 +23,7 @@ class EmbeddingColumn {
   /// One past the last row there is room for.
   [[nodiscard]] Row row_end() const { return static_cast<Row>(present_.size()); }
   [[nodiscard]] std::span<const double> get(Row row) const {
+    if (source_ != nullptr) fetch(row);
     return {data_.data() + std::size_t{row} * stride_, stride_};
   }
   [[nodiscard]] bool has(Row row) const { return row < present_.size() && present_[row] != 0; }
@@ -32,18 +33,31 @@ class EmbeddingColumn {
   void copy(Row from, Row to, Journal* journal = nullptr);
   /// New rows have no value.
   void resize(Row row_end, Journal* journal = nullptr);
-  [[nodiscard]] std::span<const double> data() const { return data_; }
-  [[nodiscard]] std::span<double> data() { return data_; }
+  [[nodiscard]] std::span<const double> data() const;
+  [[nodiscard]] std::span<double> data();
+
+  // Somebody else may hold the values for a while, in records of `pitch` doubles that begin with them.
+  /// From now on a row below `rows` has the value that is in its record, until it is set. Only rows
+  /// that are asked for are copied. Not for several threads at once.
+  void read_from(const double* records, std::uint32_t pitch, Row rows);
+  /// Rows that were not asked for keep the value that they had before.
+  void stop_reading() { source_ = nullptr; }
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   friend class Journal;
   void before_change(Row row, Journal* journal);
+  void fetch(Row row) const;
 
   std::uint32_t stride_;
   bool optional_;
-  std::vector<double> data_;
+  mutable std::vector<double> data_;  // a copy of what is read from elsewhere is made when asked for
   std::vector<std::uint8_t> present_;
+  const double* source_ = nullptr;
+  std::uint32_t pitch_ = 0;
+  Row source_rows_ = 0;
+  mutable std::vector<std::uint32_t> fetched_;  // by row of the source: the epoch of its copy
+  std::uint32_t epoch_ = 0;
 };
 
 /// The embeddings of one map: a column for each stored embedding that is in use and an orbit index

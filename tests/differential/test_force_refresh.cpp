@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "engine/map_delta.h"
 #include "engine/rewrite.h"
 #include "force_world.h"
 #include "gmap/mesh_builders.h"
@@ -14,10 +15,6 @@ using namespace gmsim::tests;
 namespace {
 
 bool any(const compile::InteractionBody&) { return true; }
-/// `pressure` walks orbits of any size, so its matches are all found anew, and those of others with
-/// them.
-bool repairable(const compile::InteractionBody& body) { return body.name != "pressure"; }
-
 std::unique_ptr<engine::ForceField> kernel_forces(ForceWorld& world, const engine::Model& model) {
   support::Diagnostics diagnostics;
   auto forces = engine::make_kernel_forces(world.state(), model, 1, diagnostics);
@@ -51,7 +48,7 @@ void tear(ForceWorld& world, const engine::Model& model, std::uint32_t seed, int
     if (!world.state().map.alive(dart) || world.state().map.alpha(top, dart) == dart) continue;
     const engine::RewriteOutcome outcome = rewriter.apply(*rule, {&dart, 1});
     REQUIRE(outcome.applied());
-    kept->refresh(outcome.effects.touched);
+    kept->refresh(engine::map_delta(world.state(), outcome.effects).darts);
     REQUIRE_MESSAGE(!kept->error(), kept->error()->message);
     compare(*kept, *kernel_forces(world, model), world);
   }
@@ -63,7 +60,7 @@ TEST_CASE("interactions of the library are repaired match by match") {
   for (const gmap::Mesh& mesh : {gmap::grid(2, 2, 2, 2, gmap::GridCells::Mix2),
                                  gmap::box({2, 1, 1}, {2, 1, 1}, gmap::BoxElements::Hexes)}) {
     ForceWorld world(mesh, 1);
-    const std::string plan = kernel_forces(world, model_of(world.program(), false, repairable))->explain();
+    const std::string plan = kernel_forces(world, model_of(world.program(), false, any))->explain();
     CAPTURE(plan);
     CHECK(plan.find("found anew") == std::string::npos);
   }
@@ -93,9 +90,7 @@ TEST_CASE("after each cut the forces equal those made anew, bit by bit") {
     for (const bool uniform : {false, true}) {
       CAPTURE(seed);
       ForceWorld world(mesh, ++seed);
-      tear(world, model_of(world.program(), uniform, repairable), seed, 25);
-      ForceWorld other(mesh, seed);
-      tear(other, model_of(other.program(), uniform, any), seed, 4);
+      tear(world, model_of(world.program(), uniform, any), seed, 25);
     }
   }
 }

@@ -26,6 +26,11 @@ class EquationsOfMotion {
   void set_inverse_mass(std::vector<double> inverse_mass) {
     inverse_mass_ = std::move(inverse_mass);
   }
+  /// The same of one row, perhaps a new one.
+  void set_inverse_mass(gmap::Row row, double inverse_mass) {
+    if (row >= inverse_mass_.size()) inverse_mass_.resize(row + std::size_t{1});
+    inverse_mass_[row] = inverse_mass;
+  }
   [[nodiscard]] std::span<const double> inverse_mass() const { return inverse_mass_; }
 
   /// Prescribed motion starts from here; to be called before the stages of a step.

@@ -21,15 +21,6 @@ constexpr double kWeight[] = {0.2369268850561891, 0.4786286704993665, 0.56888888
 /// integrator resolves, and stays on one side of most kinks.
 constexpr double kDifference = 1. / 8;
 
-/// The darts of the vertices of `vertices`.
-std::vector<DartId> all_darts(const State& state, std::span<const DartId> vertices) {
-  std::vector<DartId> darts;
-  for (const DartId vertex : vertices)
-    gmap::for_each_dart(state.map, OrbitType::cell(0, state.map.dimension()), vertex,
-                        [&](DartId d) { darts.push_back(d); });
-  return darts;
-}
-
 }  // namespace
 
 PrescribedMotions::PrescribedMotions(State& state, const std::vector<PrescribedMotion>& motions) {
@@ -37,7 +28,6 @@ PrescribedMotions::PrescribedMotions(State& state, const std::vector<PrescribedM
       state.store.use_index(state.program.schema[*state.program.schema.find("position")].orbit);
   std::unordered_map<gmap::Row, const PrescribedMotion*> taken;
   for (const PrescribedMotion& motion : motions) {
-    std::vector<gmap::Row> rows;
     std::vector<DartId> darts;
     for (const DartId dart : motion.vertices) {
       const gmap::Row row = vertices.row(dart);
@@ -48,18 +38,17 @@ PrescribedMotions::PrescribedMotions(State& state, const std::vector<PrescribedM
                                      "a vertex is moved by two prescribed motions", motion.span};
         return;
       }
-      rows.push_back(row);
       darts.push_back(dart);
     }
-    if (rows.empty()) continue;
+    if (darts.empty()) continue;
     const std::size_t first = drivers_.size();
     if (same_everywhere(motion.expression)) {
-      drivers_.push_back({all_darts(state, darts), rows, motion.gives_position,
-                          ClockExpression(state, motion.expression, darts.front())});
+      add(state, darts, motion.gives_position,
+          ClockExpression(state, motion.expression, darts.front()));
     } else {
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        drivers_.push_back({all_darts(state, {&darts[i], 1}), {rows[i]}, motion.gives_position,
-                            ClockExpression(state, motion.expression, darts[i])});
+      for (const DartId& dart : darts)
+        add(state, {&dart, 1}, motion.gives_position,
+            ClockExpression(state, motion.expression, dart));
     }
     for (std::size_t i = first; i < drivers_.size(); ++i)
       if (drivers_[i].function.error()) {
@@ -69,23 +58,54 @@ PrescribedMotions::PrescribedMotions(State& state, const std::vector<PrescribedM
   }
 }
 
-std::vector<gmap::Row> PrescribedMotions::rows() const {
-  std::vector<gmap::Row> all;
-  for (const Driver& driver : drivers_) all.insert(all.end(), driver.rows.begin(), driver.rows.end());
-  std::ranges::sort(all);
-  return all;
+void PrescribedMotions::add(const State& state, std::span<const DartId> vertices,
+                            bool gives_position, ClockExpression function) {
+  const OrbitType vertex = OrbitType::cell(0, state.map.dimension());
+  const gmap::OrbitIndex& index = *state.store.find_index(vertex);
+  drivers_.push_back({{}, gives_position, std::move(function)});
+  driver_of_dart_.resize(state.map.dart_end());
+  driver_of_row_.resize(index.row_end());
+  const auto number = static_cast<std::uint32_t>(drivers_.size());
+  for (const DartId dart : vertices) {
+    drivers_.back().rows.push_back(index.row(dart));
+    driver_of_row_[index.row(dart)] = number;
+    gmap::for_each_dart(state.map, vertex, dart,
+                        [&](DartId d) { driver_of_dart_[types::index(d)] = number; });
+  }
+  std::ranges::sort(drivers_.back().rows);
 }
 
-void PrescribedMotions::follow(const State& state) {
-  const gmap::OrbitIndex* vertices =
-      state.store.find_index(OrbitType::cell(0, state.map.dimension()));
-  for (Driver& driver : drivers_) {
-    std::erase_if(driver.darts, [&](DartId d) { return !state.map.alive(d); });
-    driver.rows.clear();
-    for (const DartId d : driver.darts) driver.rows.push_back(vertices->row(d));
-    std::ranges::sort(driver.rows);
-    driver.rows.erase(std::ranges::unique(driver.rows).begin(), driver.rows.end());
+std::uint32_t PrescribedMotions::driver_at(const State& state, DartId dart) const {
+  std::uint32_t driver = 0;
+  gmap::for_each_dart(state.map, OrbitType::cell(0, state.map.dimension()), dart, [&](DartId d) {
+    if (types::index(d) < driver_of_dart_.size())
+      driver = std::max(driver, driver_of_dart_[types::index(d)]);
+  });
+  return driver;
+}
+
+bool PrescribedMotions::follow(const State& state, std::span<const gmap::Row> changed) {
+  if (empty()) return false;
+  const gmap::OrbitIndex& vertices =
+      *state.store.find_index(OrbitType::cell(0, state.map.dimension()));
+  driver_of_row_.resize(vertices.row_end());
+  bool concerned = false;
+  for (const gmap::Row row : changed) {
+    const std::uint32_t before = driver_of_row_[row];
+    const std::uint32_t now = vertices.alive(row) ? driver_at(state, vertices.smallest(row)) : 0;
+    concerned = concerned || before != 0 || now != 0;
+    if (before == now) continue;
+    driver_of_row_[row] = now;
+    if (before != 0) {
+      std::vector<gmap::Row>& rows = drivers_[before - 1].rows;
+      rows.erase(std::ranges::lower_bound(rows, row));
+    }
+    if (now != 0) {
+      std::vector<gmap::Row>& rows = drivers_[now - 1].rows;
+      rows.insert(std::ranges::lower_bound(rows, row), row);
+    }
   }
+  return concerned;
 }
 
 void PrescribedMotions::begin_step(const PhasePoint& now) {

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "engine/tree_eval.h"
+#include "engine/force_watch.h"
 
 namespace gmsim::engine {
 namespace {
@@ -27,39 +28,49 @@ support::Diagnostic unusable_mass(const State& state, Row row, double mass) {
 
 }  // namespace
 
-std::vector<double> vertex_masses(const State& state, std::optional<support::Diagnostic>& problem) {
-  const std::optional<EmbeddingId> mass = state.program.schema.find("mass");
+bool VertexMasses::weigh_all(const std::vector<bool>& held,
+                             std::optional<support::Diagnostic>& problem) {
+  const Row rows = vertices(state_).row_end();
+  masses_.assign(rows, 0.0);
+  inverse_.assign(rows, 0.0);
+  for (Row row = 0; row < rows; ++row)
+    if (!weigh(row, held[row], problem)) return false;
+  return true;
+}
+
+bool VertexMasses::weigh(std::span<const Row> rows, const std::vector<bool>& held,
+                         std::optional<support::Diagnostic>& problem) {
+  masses_.resize(vertices(state_).row_end());
+  inverse_.resize(masses_.size());
+  return std::all_of(rows.begin(), rows.end(),
+                     [&](Row row) { return weigh(row, held[row], problem); });
+}
+
+bool VertexMasses::weigh(Row row, bool held, std::optional<support::Diagnostic>& problem) {
+  const std::optional<EmbeddingId> mass = state_.program.schema.find("mass");
   if (!mass) {
     problem = support::Diagnostic{support::DiagnosticKind::NoMass,
                                   "the rules declare no value `mass` on vertices"};
-    return {};
+    return false;
   }
-  const gmap::OrbitIndex& index = vertices(state);
-  TreeEvaluator evaluator(state);
-  std::vector<double> masses(index.row_end(), 0.0);
-  for (Row row = 0; row < index.row_end(); ++row) {
-    if (!index.alive(row)) continue;
-    if (evaluator.read(*mass, index.smallest(row), {&masses[row], 1})) continue;
-    problem = evaluator.take_failure().diagnostic;
-    return {};
+  masses_[row] = inverse_[row] = 0;
+  if (!vertices(state_).alive(row)) return true;
+  if (!evaluator_.read(*mass, vertices(state_).smallest(row), {&masses_[row], 1})) {
+    problem = evaluator_.take_failure().diagnostic;
+    return false;
   }
-  return masses;
+  if (held) return true;
+  if (!(masses_[row] > 0) || !std::isfinite(1 / masses_[row]) || !std::isfinite(masses_[row])) {
+    problem = unusable_mass(state_, row, masses_[row]);
+    return false;
+  }
+  inverse_[row] = 1 / masses_[row];
+  return true;
 }
 
-std::vector<double> inverse_masses(const State& state, const std::vector<double>& masses,
-                                   const std::vector<bool>& held,
-                                   std::optional<support::Diagnostic>& problem) {
-  const gmap::OrbitIndex& index = vertices(state);
-  std::vector<double> inverse(masses.size(), 0.0);
-  for (Row row = 0; row < masses.size(); ++row) {
-    if (!index.alive(row) || held[row]) continue;
-    if (!(masses[row] > 0) || !std::isfinite(1 / masses[row]) || !std::isfinite(masses[row])) {
-      problem = unusable_mass(state, row, masses[row]);
-      return {};
-    }
-    inverse[row] = 1 / masses[row];
-  }
-  return inverse;
+bool VertexMasses::local() const {
+  const std::optional<EmbeddingId> mass = state_.program.schema.find("mass");
+  return !mass || stays_in_orbit(state_.program.schema, *mass);
 }
 
 std::string vertex_text(const State& state, DartId dart) {

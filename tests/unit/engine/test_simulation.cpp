@@ -185,7 +185,7 @@ TEST_CASE("a refreshed simulation goes on from the state it is given") {
   world.place(1, {0.4, 0, 0});
   world.fix(2);
   world.weigh(1, 0.3);
-  REQUIRE(simulation->refresh({}, world.diagnostics));
+  REQUIRE(simulation->refresh(world.diagnostics));
   CHECK(simulation->totals().mass == doctest::Approx(0.5));
   const std::array<double, 3> held = world.position(2);
   world.run(*simulation, 0.2);
