@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "gmap/orbit_walk.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -50,7 +51,8 @@ void AtomicForceIndex::update(const AtomicForceChanges& changes, std::vector<Dar
     const std::span<const std::uint32_t> list = lists_[types::index(dart)];
     const auto at = std::find(list.begin(), list.end(), number);
     lists_.erase(types::index(dart), static_cast<std::size_t>(at - list.begin()));
-    forces_[number] = {.share = 0};
+    forces_[number] = AtomicForce{};
+    forces_[number].share = 0;
     free_.push_back(number);
     changed.push_back(dart);
   }
@@ -144,8 +146,7 @@ void OrbitForces::update(const AtomicForceIndex& atomic, const gmap::OrbitIndex&
   std::vector<gmap::Row> rows;
   for (const DartId dart : darts)
     if (orbits.row(dart) != gmap::kNoRow) rows.push_back(orbits.row(dart));
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  support::sort_once(rows);
   for (const gmap::Row row : rows) {
     list(atomic, orbits.smallest(row));
     terms_.clear(row);

@@ -9,6 +9,7 @@
 
 #include "engine/evaluate_at.h"
 #include "engine/force_context.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -63,8 +64,7 @@ Criteria::Diagnostic Criteria::repair(const Effects& effects, const MapDelta& de
   // Matches that go through single forces depend on the lists of their darts.
   std::vector<DartId> with_lists = delta.darts;
   with_lists.insert(with_lists.end(), relisted_.begin(), relisted_.end());
-  std::sort(with_lists.begin(), with_lists.end());
-  with_lists.erase(std::unique(with_lists.begin(), with_lists.end()), with_lists.end());
+  support::sort_once(with_lists);
   for (const auto& field : fields_) {
     const std::vector<DartId>& changed =
         field->reads_forces_one_by_one() ? with_lists : delta.darts;

@@ -8,6 +8,7 @@
 #include "engine/force_evaluate.h"
 #include "engine/force_report.h"
 #include "gmap/orbit_walk.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -171,8 +172,7 @@ CriterionField::Diagnostic CriterionField::repair(std::span<const DartId> change
   }
   for (DartId& hook : hooks)
     hook = map.alive(hook) ? gmap::smallest_dart(map, body_.orbit, hook) : gmap::kNoDart;
-  std::sort(hooks.begin(), hooks.end());
-  hooks.erase(std::unique(hooks.begin(), hooks.end()), hooks.end());
+  support::sort_once(hooks);
   if (!hooks.empty() && hooks.back() == gmap::kNoDart) hooks.pop_back();
   looked_at += hooks.size();
   for (const DartId key : hooks) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "gmap/orbit_walk.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -67,8 +68,7 @@ ElementBounds::Stand ElementBounds::stand(const compile::Shape& shape,
   }
   bool one_element = true;
   for (auto& corners : result.corners) {
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    support::sort_once(corners);
     one_element = one_element && corners.size() <= 1;
     for (const DartId corner : corners) {
       const DartId element = gmap::smallest_dart(map, element_, corner);

@@ -4,16 +4,11 @@
 #include <utility>
 
 #include "engine/force_pass.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
 namespace {
-
-template <typename Entry>
-void sort_once(std::vector<Entry>& entries) {
-  std::sort(entries.begin(), entries.end());
-  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-}
 
 /// visit(begin, end) of each run of rows that follow each other in one block and in one piece of
 /// `piece` rows from `first` on.
@@ -40,8 +35,8 @@ std::optional<ForcePass::Failure> ForcePass::run_changes(const ForceMoment& mome
   for (ForceWorkers::Space& space : workers.spaces) space.failed = {};
   bind(PassKernels::Forces, moment, store);
   std::erase_if(linked_, [&](const RowAt& at) { return blocks_[at.block].table->vacant(at.row); });
-  sort_once(linked_);
-  sort_once(relisted_);
+  support::sort_once(linked_);
+  support::sort_once(relisted_);
   ForceWorkers::Space& space = workers.spaces[0];
   if (matches_ == Matches::Merged) {
     sum_from_scratch(space, out.data());
@@ -84,7 +79,7 @@ void ForcePass::sum_from_scratch(ForceWorkers::Space& space, VertexRecord* out) 
   std::vector<RowAt> rows;
   for (const Row vertex : relisted_)
     for (const ForceOrder order : sums_.orders(vertex)) rows.push_back(row_of(order));
-  sort_once(rows);
+  support::sort_once(rows);
   std::vector<std::uint32_t> first_slots;  // parallel to rows
   std::vector<std::uint32_t> strides;      // between the outputs of a row
   std::vector<VertexRecord> forces;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "support/sort_once.h"
+
 namespace gmsim::engine {
 
 namespace {
@@ -42,8 +44,7 @@ std::vector<Way> ways_to_hook(const compile::MatchPlan& plan) {
     }
   }
   for (Way& way : all) std::reverse(way.begin(), way.end());  // links lead both ways
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  support::sort_once(all);
   return all;
 }
 

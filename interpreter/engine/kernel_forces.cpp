@@ -22,14 +22,12 @@ constexpr double kClearGain = 1.1;
 void ThreadProbe::note(double seconds) {
   seconds_[runs_ % 2][runs_ / 2] = seconds;
   ++runs_;
-}
-
-bool ThreadProbe::alone_is_faster() const {
+  if (!decided()) return;
   const auto median = [](std::array<double, kRuns> times) {
     std::nth_element(times.begin(), times.begin() + kRuns / 2, times.end());
     return times[kRuns / 2];
   };
-  return median(seconds_[0]) <= kClearGain * median(seconds_[1]);
+  alone_is_faster_ = median(seconds_[0]) <= kClearGain * median(seconds_[1]);
 }
 
 KernelForces::KernelForces(const State& state, const Model& model, unsigned threads,

@@ -22,15 +22,14 @@ class ThreadProbe {
  public:
   [[nodiscard]] bool decided() const { return runs_ == 2 * kRuns; }
   /// Is the next evaluation to be run by one thread?
-  [[nodiscard]] bool alone() const { return decided() ? alone_is_faster() : runs_ % 2 == 0; }
+  [[nodiscard]] bool alone() const { return decided() ? alone_is_faster_ : runs_ % 2 == 0; }
   void note(double seconds);
-  void restart() { *this = ThreadProbe(); }
 
  private:
   static constexpr int kRuns = 9;  // of each kind; the median counts
-  [[nodiscard]] bool alone_is_faster() const;
 
   int runs_ = 0;
+  bool alone_is_faster_ = true;  // when decided
   std::array<std::array<double, kRuns>, 2> seconds_{};  // alone, shared
 };
 

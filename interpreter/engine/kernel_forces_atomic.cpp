@@ -3,6 +3,7 @@
 
 #include "engine/atomic_forces.h"
 #include "engine/kernel_forces.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -19,8 +20,7 @@ void KernelForces::note_placed(const InteractionTables& of, DartId key) {
 
 void KernelForces::list_placed() {
   changes_.come.clear();
-  std::sort(placed_.begin(), placed_.end());
-  placed_.erase(std::unique(placed_.begin(), placed_.end()), placed_.end());
+  support::sort_once(placed_);
   for (const auto& [number, key] : placed_) {
     const InteractionTables& of = *interactions_[number];
     if (of.place(key).shape != InteractionTables::kNowhere)

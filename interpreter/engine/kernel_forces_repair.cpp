@@ -7,6 +7,7 @@
 
 #include "engine/kernel_forces.h"
 #include "gmap/orbit_walk.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -51,8 +52,7 @@ void KernelForces::find_again(Repair& repair, std::vector<DartId>& hooks) {
   const gmap::GMap& map = context_.state.map;
   for (DartId& hook : hooks)
     hook = map.alive(hook) ? gmap::smallest_dart(map, of.body().orbit, hook) : gmap::kNoDart;
-  std::sort(hooks.begin(), hooks.end());
-  hooks.erase(std::unique(hooks.begin(), hooks.end()), hooks.end());
+  support::sort_once(hooks);
   if (!hooks.empty() && hooks.back() == gmap::kNoDart) hooks.pop_back();
   found_again_ += hooks.size();
   for (const DartId smallest : hooks) {
@@ -127,8 +127,7 @@ void KernelForces::merge_again(Repair& repair) {
   InteractionTables& of = *repair.of;
   for (std::uint32_t shape = 0; shape < repair.regroup.size() && !stale_; ++shape) {
     std::vector<DartId>& keys = repair.regroup[shape];
-    std::sort(keys.begin(), keys.end());
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    support::sort_once(keys);
     std::vector<std::uint32_t> rows;
     for (const DartId key : keys)  // those that are still there, with this shape
       if (of.place(key).shape == shape) rows.push_back(of.place(key).row);

@@ -4,15 +4,10 @@
 #include <algorithm>
 
 #include "gmap/orbit_walk.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 namespace {
-
-template <typename Entry>
-void sort_once(std::vector<Entry>& entries) {
-  std::sort(entries.begin(), entries.end());
-  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-}
 
 void add_orbit(const gmap::GMap& map, OrbitType type, DartId dart, std::vector<DartId>& darts) {
   if (!map.alive(dart)) return;
@@ -27,7 +22,7 @@ void add_changed_orbits(const gmap::GMap& map, const OrbitEvents& events,
   for (const gmap::OrbitChange& orbit : repair.orbits)
     for (const Row source : repair.sources_of(orbit))
       if (source != orbit.row) givers.push_back(source);
-  sort_once(givers);
+  support::sort_once(givers);
   for (const gmap::OrbitChange& orbit : repair.orbits) {
     const auto sources = repair.sources_of(orbit);
     const bool as_before = sources.size() == 1 && sources.front() == orbit.row &&
@@ -45,7 +40,7 @@ MapDelta map_delta(const State& state, const Effects& effects) {
     add_orbit(state.map, orbit.type, orbit.dart, delta.darts);
   for (const OrbitEvents& events : effects.orbits)
     add_changed_orbits(state.map, events, delta.darts);
-  sort_once(delta.darts);
+  support::sort_once(delta.darts);
   const OrbitType vertex = OrbitType::cell(0, state.map.dimension());
   if (const gmap::OrbitRepair* repair = effects.find(vertex)) {
     for (const gmap::OrbitChange& change : repair->orbits) delta.vertices.push_back(change.row);
@@ -55,7 +50,7 @@ MapDelta map_delta(const State& state, const Effects& effects) {
   if (const gmap::OrbitIndex* vertices = state.store.find_index(vertex))
     for (const DartId dart : delta.darts)
       if (state.map.alive(dart)) delta.vertices.push_back(vertices->row(dart));
-  sort_once(delta.vertices);
+  support::sort_once(delta.vertices);
   return delta;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gmap/orbit_walk.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -42,8 +43,7 @@ void MatchWatch::add(const ForceMatch& match) {
       add_orbit(role.type, role.dart);
     }
   }
-  std::sort(darts_.begin(), darts_.end());
-  darts_.erase(std::unique(darts_.begin(), darts_.end()), darts_.end());
+  support::sort_once(darts_);
   for (const DartId dart : darts_) watch_.add(dart, match.key);
 }
 
@@ -55,8 +55,7 @@ void MatchWatch::find_stale(std::span<const DartId> changed, std::vector<DartId>
     if (!map.alive(dart)) continue;
     for (const Way& way : ways_) hooks.push_back(follow(map, dart, way));
   }
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  support::sort_once(keys);
 }
 
 }  // namespace gmsim::engine

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/rewriter_implementation.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -67,8 +68,7 @@ void Rewriter::Implementation::enter_kept(const RowPlan::Orbits& orbits, OrbitIn
   }
   kept_rows_.clear();
   for (const RowPlan::Place place : orbits.kept) kept_rows_.push_back(index.row(darts[place]));
-  std::sort(kept_rows_.begin(), kept_rows_.end());
-  kept_rows_.erase(std::unique(kept_rows_.begin(), kept_rows_.end()), kept_rows_.end());
+  support::sort_once(kept_rows_);
 }
 
 /// Kept orbits take their place among those from number `first` on, which were repaired; those that

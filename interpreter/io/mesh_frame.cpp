@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "support/sort_once.h"
+
 namespace gmsim::io {
 
 namespace {
@@ -62,8 +64,7 @@ void MeshTopology::add_polyhedron(const std::vector<std::vector<std::int32_t>>& 
     face_connectivity.insert(face_connectivity.end(), face.begin(), face.end());
     face_offsets.push_back(size_of(face_connectivity));
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+  support::sort_once(points);
   add_cell(VtkCell::Polyhedron, points);
   polyhedron_offsets.back() = size_of(polyhedron_faces);
 }

@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "bench/bench_timing.h"
-#include "engine/simulation.h"
-#include "scene/scene.h"
+#include "bench/scene_cloth.h"
 
 using namespace gmsim;
 
@@ -24,40 +22,10 @@ constexpr double kCascadeBar = 13.0;  // 10^5 separations against 10^4
 constexpr int kTears = 40;
 
 /// The cloth of a scene with about so many darts.
-class Cloth {
- public:
-  Cloth(const std::string& file, double darts, const std::vector<std::string>& more = {}) {
-    const int n = static_cast<int>(std::lround(std::sqrt(darts / 8)));
-    scene::SceneOptions options;
-    options.overrides = more;
-    options.overrides.push_back(fmt::format("bodies.cloth.mesh.grid.patches=[{}, {}]", n, n));
-    scene_ = scene::load_scene(file, options, sources_, diagnostics_);
-    if (scene_)
-      simulation_ = engine::Simulation::create(*scene_->state, scene_->model, scene_->integrator,
-                                               {}, diagnostics_);
-    stop_on_errors();
-  }
-  engine::StepReport step() {
-    const auto report = simulation_->step(1e9, diagnostics_);
-    stop_on_errors();
-    return *report;
-  }
-  [[nodiscard]] std::uint32_t darts() const { return scene_->state->map.dart_count(); }
-
- private:
-  void stop_on_errors() {
-    for (const support::Diagnostic& diagnostic : diagnostics_.all())
-      if (diagnostic.severity == support::Severity::Error) {
-        fmt::print("{}\n", diagnostic.message);
-        std::exit(2);
-      }
-  }
-
-  support::SourceMap sources_;
-  support::Diagnostics diagnostics_;
-  std::unique_ptr<scene::Scene> scene_;
-  std::unique_ptr<engine::Simulation> simulation_;
-};
+bench::SceneCloth cloth_of(const std::string& file, double darts) {
+  return {file, static_cast<std::uint32_t>(std::lround(std::sqrt(darts / 8))),
+          std::vector<std::string>{}};
+}
 
 void print_heading(const char* first) {
   fmt::print("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>8}{:>9}{:>9}\n", first, "rewrite",
@@ -76,7 +44,7 @@ void print_cost(std::uint64_t first, const engine::ChangeCost& cost, double unit
 
 /// The median tear.
 engine::ChangeCost one_tear(double darts, std::uint32_t& actual) {
-  Cloth cloth("tests/bench/tear_one.yaml", darts);
+  bench::SceneCloth cloth = cloth_of("tests/bench/tear_one.yaml", darts);
   actual = cloth.darts();
   std::vector<engine::ChangeCost> costs;
   for (int tear = 0; tear < kTears; ++tear) {
@@ -122,7 +90,7 @@ bool tears(double largest) {
 engine::ChangeCost cascade(double separations, std::size_t& events) {
   engine::ChangeCost best;
   for (int repetition = 0; repetition < 3; ++repetition) {
-    Cloth cloth("tests/bench/tear_cascade.yaml", separations * 4);
+    bench::SceneCloth cloth = cloth_of("tests/bench/tear_cascade.yaml", separations * 4);
     engine::StepReport report;
     while (report.events.empty()) report = cloth.step();
     if (best.total() == 0 || report.cost.total() < best.total()) best = report.cost;

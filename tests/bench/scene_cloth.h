@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/yardstick.h"
@@ -21,21 +22,28 @@ namespace gmsim::bench {
 class SceneCloth {
  public:
   /// `overrides`: what else is set, as after `--set`.
-  SceneCloth(const std::string& file, std::uint32_t n, double dt, unsigned threads = 1,
-             const std::vector<std::string>& overrides = {}) {
+  SceneCloth(const std::string& file, std::uint32_t n, std::vector<std::string> overrides,
+             unsigned threads = 1) {
     scene::SceneOptions options;
-    options.overrides = {fmt::format("bodies.cloth.mesh.grid.patches=[{}, {}]", n, n),
-                         fmt::format("integrator.dt={:.17g}", dt)};
-    options.overrides.insert(options.overrides.end(), overrides.begin(), overrides.end());
+    options.overrides = std::move(overrides);
+    options.overrides.push_back(fmt::format("bodies.cloth.mesh.grid.patches=[{}, {}]", n, n));
     scene_ = scene::load_scene(file, options, sources_, diagnostics_);
     if (scene_)
       simulation_ = engine::Simulation::create(*scene_->state, scene_->model, scene_->integrator,
                                                {.threads = threads}, diagnostics_);
     stop_on_errors();
   }
-  void step() {
-    if (!simulation_->step(1e9, diagnostics_)) stop_on_errors();
+  /// With steps of dt.
+  SceneCloth(const std::string& file, std::uint32_t n, double dt, unsigned threads = 1,
+             std::vector<std::string> overrides = {})
+      : SceneCloth(file, n, with_step(std::move(overrides), dt), threads) {}
+
+  engine::StepReport step() {
+    auto report = simulation_->step(1e9, diagnostics_);
+    stop_on_errors();
+    return std::move(*report);
   }
+  [[nodiscard]] std::uint32_t darts() const { return scene_->state->map.dart_count(); }
   /// Value over threshold of everything that the first line of `tear` judges.
   std::vector<double> ratios() {
     const auto reports = simulation_->survey(diagnostics_);
@@ -57,6 +65,10 @@ class SceneCloth {
   }
 
  private:
+  static std::vector<std::string> with_step(std::vector<std::string> overrides, double dt) {
+    overrides.push_back(fmt::format("integrator.dt={:.17g}", dt));
+    return overrides;
+  }
   void stop_on_errors() {
     for (const support::Diagnostic& diagnostic : diagnostics_.all())
       if (diagnostic.severity == support::Severity::Error) {
