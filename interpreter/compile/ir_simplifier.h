@@ -25,6 +25,7 @@ class Simplifier {
     return is(id, Op::Constant) && node(id).type == ValueKind::Real;
   }
   [[nodiscard]] double value(NodeId id) const { return node(id).constant; }
+  [[nodiscard]] static bool power_of_two(double x);
   [[nodiscard]] bool equals(NodeId id, double x) const { return number(id) && value(id) == x; }
   [[nodiscard]] NodeId inner(NodeId id, int operand = 0) const {
     return node(id).operands[operand];
@@ -67,7 +68,7 @@ class Simplifier {
   Result norm();
   Result normalize();
   Result linear();
-  [[nodiscard]] bool swapped_difference() const;
+  [[nodiscard]] bool swapped_difference(NodeId id) const;
   [[nodiscard]] std::optional<std::uint32_t> axis(NodeId id) const;
 
   Graph& graph_;

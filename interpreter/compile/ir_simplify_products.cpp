@@ -4,15 +4,12 @@
 #include "compile/ir_simplifier.h"
 
 namespace gmsim::compile::ir {
-namespace {
 
 /// Multiplying by it changes no digit; small enough to stay in range.
-bool power_of_two(double x) {
+bool Simplifier::power_of_two(double x) {
   int exponent = 0;
   return std::frexp(x, &exponent) == 0.5 && std::abs(exponent) < 64;
 }
-
-}  // namespace
 
 /// x is `if m then y else 0` or `if m then 0 else y`.
 bool Simplifier::guards(NodeId id) const {

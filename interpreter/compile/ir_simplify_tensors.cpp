@@ -63,6 +63,8 @@ std::optional<NodeId> Simplifier::dot() {
 std::optional<NodeId> Simplifier::cross() {
   if (a_ == b_) return zero(ValueKind::Vec3);
   if (const auto simpler = product(ValueKind::Vec3)) return simpler;
+  if (swapped_difference(a_)) return negated(make(op_, negated(a_), b_));
+  if (swapped_difference(b_)) return negated(make(op_, a_, negated(b_)));
   if (index(a_) > index(b_)) return negated(plain(b_, a_));
   return std::nullopt;
 }
@@ -74,22 +76,24 @@ std::optional<NodeId> Simplifier::matvec() {
   return product(ValueKind::Vec3);
 }
 
-/// x - y with x made after y: its length is taken of y - x, so both ways share one node.
-bool Simplifier::swapped_difference() const {
-  return is(a_, Op::Sub) && index(inner(a_, 0)) > index(inner(a_, 1));
+/// x - y with x made after y: y - x is used instead, so both ways share one node.
+bool Simplifier::swapped_difference(NodeId id) const {
+  return is(id, Op::Sub) && index(inner(id, 0)) > index(inner(id, 1));
 }
 
 std::optional<NodeId> Simplifier::norm() {
   if (graph_.is_zero(a_)) return zero(ValueKind::Real);
   if (is(a_, Op::Neg)) return make(op_, inner(a_));
-  if (swapped_difference()) return make(op_, negated(a_));
+  if (swapped_difference(a_)) return make(op_, negated(a_));
   return std::nullopt;
 }
 
 std::optional<NodeId> Simplifier::normalize() {
   if (graph_.is_zero(a_)) return a_;
   if (is(a_, Op::Neg)) return negated(make(op_, inner(a_)));
-  if (swapped_difference()) return negated(make(op_, negated(a_)));
+  if (swapped_difference(a_)) return negated(make(op_, negated(a_)));
+  if (is(a_, Op::Scale) && number(inner(a_)) && power_of_two(value(inner(a_))))
+    return make(op_, inner(a_, 1));
   return std::nullopt;
 }
 

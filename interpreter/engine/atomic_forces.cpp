@@ -125,7 +125,7 @@ void OrbitForces::list(const AtomicForceIndex& atomic, DartId dart) {
 }
 
 void OrbitForces::rebuild(const AtomicForceIndex& atomic, const gmap::OrbitIndex& orbits) {
-  std::vector<Term> all;
+  std::vector<SlotShare> all;
   std::vector<std::uint32_t> counts(orbits.row_end(), 0);
   for (gmap::Row row = 0; row < orbits.row_end(); ++row) {
     if (!orbits.alive(row)) continue;
@@ -150,14 +150,15 @@ void OrbitForces::update(const AtomicForceIndex& atomic, const gmap::OrbitIndex&
   for (const gmap::Row row : rows) {
     list(atomic, orbits.smallest(row));
     terms_.clear(row);
-    for (const Term& term : listed_) terms_.append(row, term);
+    for (const SlotShare& term : listed_) terms_.append(row, term);
   }
 }
 
 void OrbitForces::sum(std::span<const VertexRecord> slots) {
-  values_.assign(terms_.rows(), {});
-  for (std::size_t row = 0; row < values_.size(); ++row)
-    for (const Term& term : terms_[row]) add(values_[row], slots[term.slot], term.share);
+  values_.resize(terms_.rows());
+  if (values_.empty()) return;
+  sum_shares(&slots.data()->x, terms_.lists(), terms_.entries(),
+             static_cast<std::uint32_t>(values_.size()), &values_.front().x);
 }
 
 }  // namespace gmsim::engine

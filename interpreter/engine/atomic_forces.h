@@ -90,18 +90,14 @@ class OrbitForces {
   [[nodiscard]] std::uint32_t only() const { return only_; }
 
  private:
-  struct Term {
-    std::uint32_t slot = 0;
-    double share = 1;
-  };
   void list(const AtomicForceIndex& atomic, DartId dart);
 
   types::OrbitType orbit_;
   std::uint32_t only_;
-  RowLists<Term> terms_;
+  RowLists<SlotShare> terms_;
   std::vector<VertexRecord> values_;
   std::vector<std::uint32_t> numbers_;  // work space
-  std::vector<Term> listed_;
+  std::vector<SlotShare> listed_;
 };
 
 }  // namespace gmsim::engine

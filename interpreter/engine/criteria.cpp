@@ -20,9 +20,10 @@ Criteria::Criteria(State& state, const ForceField& forces, std::span<const TearP
       world_(forces.context()->world),
       evaluator_(state) {
   world_.atomic_forces = &atomic_;
+  readings_.vertex = types::OrbitType::cell(0, state.map.dimension());
   for (std::uint32_t i = 0; i < pairings.size(); ++i) {
     const compile::CriterionBody& body = state.program.criterion_bodies[pairings[i].criterion];
-    for (const types::OrbitType orbit : force_reads(body, state.program.schema).orbits)
+    for (const types::OrbitType orbit : force_reads(body, state.program.schema, readings_.vertex).orbits)
       state.store.use_index(orbit);
     fields_.push_back(std::make_unique<CriterionField>(*forces.context(), world_, pairings[i], i));
   }
@@ -85,6 +86,7 @@ Criteria::Diagnostic Criteria::repair(const Effects& effects, const MapDelta& de
 }
 
 void Criteria::read_forces_now() {
+  readings_.internal = forces_.internal_sums();
   const std::span<const VertexRecord> slots = forces_.atomic_slots();
   for (const auto& sum : readings_.sums) sum->sum(slots);
   if (one_by_one_) atomic_.read(slots, readings_.atomic);

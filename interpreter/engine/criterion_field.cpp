@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/criterion_field.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "compile/expression_search.h"
@@ -64,12 +67,16 @@ compile::Wanted wanted(const compile::CriterionBody& body, types::Slot threshold
 
 }  // namespace
 
-ForceReads force_reads(const compile::CriterionBody& body, const gmap::EmbeddingSchema& schema) {
+ForceReads force_reads(const compile::CriterionBody& body, const gmap::EmbeddingSchema& schema,
+                       types::OrbitType vertex) {
   ForceReads reads;
   const auto collect = [&](const Expr& expr) {
     (void)compile::any_node(expr, schema, [&](const Expr& node) {
-      reads.any = reads.any || node.kind == ExprKind::ForceOn || node.kind == ExprKind::Forces;
-      if (node.kind == ExprKind::ForceOn &&
+      const bool sum = node.kind == ExprKind::ForceOn;
+      const bool of_all = sum && node.orbit == vertex && node.number != 1;
+      reads.internal = reads.internal || of_all;
+      reads.single = reads.single || (sum && !of_all) || node.kind == ExprKind::Forces;
+      if (sum &&
           std::find(reads.orbits.begin(), reads.orbits.end(), node.orbit) == reads.orbits.end())
         reads.orbits.push_back(node.orbit);
       return false;  // look at all of them
@@ -81,18 +88,65 @@ ForceReads force_reads(const compile::CriterionBody& body, const gmap::Embedding
   return reads;
 }
 
+namespace {
+
+/// The value where the criterion's conditions do not hold: below everything.
+constexpr double kNotJudged = std::numeric_limits<double>::lowest();
+
+/// The threshold where it is the same for all matches of a shape.
+std::optional<double> uniform_threshold(const compile::Shape& shape) {
+  const compile::ir::Node& node = shape.graph[shape.values[1].front()];
+  if (node.op != compile::ir::Op::Constant) return std::nullopt;
+  return node.constant;
+}
+
+/// The value, and the threshold where it is not uniform.
+ForceProgram judged_program(const compile::Shape& shape, const ShapeInputs& inputs) {
+  namespace ir = compile::ir;
+  ForceProgram program = values_program(shape, inputs, 0, uniform_threshold(shape) ? 1 : 2);
+  if (shape.condition != ir::kNone)
+    program.roots[0] = program.graph.make(ir::Op::Select, shape.condition,
+                                          shape.values[0].front(),
+                                          program.graph.constant(kNotJudged));
+  return program;
+}
+
+double ratio(const NearestMatch& match) { return match.value / match.threshold; }
+
+/// Nearer to its threshold; of two alike the one with the smaller dart.
+void take_nearer(const NearestMatch& candidate, NearestMatch& nearest) {
+  if (nearest.where == gmap::kNoDart || ratio(candidate) > ratio(nearest) ||
+      (ratio(candidate) == ratio(nearest) && candidate.where < nearest.where))
+    nearest = candidate;
+}
+
+}  // namespace
+
 struct CriterionField::Part {
   Part(const compile::Shape& shape, const ShapeInputs& inputs, MatchTable::Widths widths)
       : table(std::move(widths)),
-        judged(values_program(shape, inputs, 0, 2)),
+        uniform(uniform_threshold(shape)),
+        judged(judged_program(shape, inputs)),
         results(values_program(shape, inputs, 2, shape.values.size() - 2)),
         evaluator(results.graph) {}
 
+  [[nodiscard]] double threshold(std::uint32_t row) const {
+    return uniform ? *uniform : thresholds[row];
+  }
+  const std::vector<double>& compute_ratios() {
+    ratios.resize(values.size());
+    for (std::size_t row = 0; row < values.size(); ++row)
+      ratios[row] = values[row] == kNotJudged ? kNotJudged : values[row] / thresholds[row];
+    return ratios;
+  }
+
   MatchTable table;
-  ForceKernel judged;      // value and threshold
+  const std::optional<double> uniform;  // threshold of all
+  ForceKernel judged;                   // value, and threshold unless uniform
   ForceProgram results;
   IrEvaluator<double> evaluator;  // of results
-  std::vector<double> values, thresholds;
+  std::vector<InputBinding> inputs;  // of judged
+  std::vector<double> values, thresholds, ratios;
 };
 
 CriterionField::CriterionField(const ForceContext& context, const compile::World& world,
@@ -189,7 +243,7 @@ void CriterionField::add_sums(ForceReadings& readings) const {
     for (const ForceProgram::LiveInput& input : program.inputs) {
       const InputOrigin& origin = input.origin;
       if (origin.kind != InputOrigin::Kind::ForceOn) continue;
-      if (readings.find(origin.orbit, origin.offset) == nullptr)
+      if (!readings.has(origin.orbit, origin.offset))
         readings.sums.push_back(std::make_unique<OrbitForces>(origin.orbit, origin.offset));
     }
   };
@@ -204,6 +258,18 @@ bool CriterionField::reads_forces_one_by_one() const {
     return part->judged.program().reads(InputOrigin::Kind::AtomicForce) ||
            part->results.reads(InputOrigin::Kind::AtomicForce);
   });
+}
+
+std::string CriterionField::explain() const {
+  std::string text = fmt::format("  {} on {}\n", body_.name, types::to_string(body_.orbit));
+  for (const auto& part : parts_) {
+    if (part->table.count() == 0) continue;
+    const compile::Kernel& kernel = part->judged.kernel();
+    text += fmt::format("    {} matches: {} operations and {} bytes a match, {} instructions\n",
+                        part->table.count(), kernel.operations(), kernel.bytes(),
+                        kernel.code.size());
+  }
+  return text;
 }
 
 CriterionField::Diagnostic CriterionField::judge(const ForceMoment& moment,
@@ -223,44 +289,60 @@ CriterionField::Diagnostic CriterionField::judge_part(Part& part, std::uint32_t 
                                                       std::vector<TearRequest>& requests) {
   const std::uint32_t count = part.table.size();
   part.values.resize(count);
-  part.thresholds.resize(count);
-  std::vector<InputBinding> inputs;
-  part.judged.bind(part.table, context_.state.store, moment, inputs);
+  if (!part.uniform) part.thresholds.resize(count);
+  part.judged.bind(part.table, context_.state.store, moment, part.inputs);
   const OutputBinding outputs[] = {{part.values.data(), 1}, {part.thresholds.data(), 1}};
-  if (const auto row = part.judged.run(part.table, inputs, outputs, 0, count, scratch_)) {
+  if (const auto row = part.judged.run(part.table, part.inputs,
+                                       std::span(outputs).first(part.uniform ? 1 : 2), 0, count,
+                                       scratch_)) {
     const ForceMatch match = part.table.match(*row, shape);
     IrEvaluator<double> evaluator(part.judged.program().graph);
     evaluate_match(part.judged.program(), match, moment, context_.state.store, evaluator);
     return non_finite(body_, match, part.judged.program(), evaluator);
   }
+  // Under one threshold the values have the order of the ratios.
+  const std::vector<double>& measure = part.uniform ? part.values : part.compute_ratios();
+  double best = kNotJudged;
+  std::optional<std::uint32_t> best_row;
   for (std::uint32_t row = 0; row < count; ++row) {
-    if (part.table.vacant(row)) continue;
-    const double value = part.values[row], threshold = part.thresholds[row];
-    if (value == 0 && threshold == 0) continue;  // the criterion's conditions do not hold there
-    if (keep_ratios_) ratios_.push_back(value / threshold);
-    const DartId hook = part.table.nodes(row)[body_.hook];
-    const double ratio = value / threshold, best = nearest.value / nearest.threshold;
-    if (nearest.where == gmap::kNoDart || ratio > best || (ratio == best && hook < nearest.where))
-      nearest = {value, threshold, moment.time, hook, {}};
-    if (value > threshold) fire(part, shape, row, moment, value, threshold, requests);
+    const bool fires = part.values[row] > part.threshold(row);
+    if ((!(measure[row] >= best) && !fires) || measure[row] == kNotJudged || part.table.vacant(row))
+      continue;
+    if (!best_row || measure[row] > best || hook(part, row) < hook(part, *best_row)) {
+      best = measure[row];
+      best_row = row;
+    }
+    if (fires) fire(part, shape, row, moment, requests);
   }
+  if (best_row)
+    take_nearer({part.values[*best_row], part.threshold(*best_row), moment.time,
+                 hook(part, *best_row), {}}, nearest);
+  if (keep_ratios_) note_ratios(part);
   return std::nullopt;
 }
 
+DartId CriterionField::hook(const Part& part, std::uint32_t row) const {
+  return part.table.nodes(row)[body_.hook];
+}
+
+void CriterionField::note_ratios(const Part& part) {
+  for (std::uint32_t row = 0; row < part.table.size(); ++row)
+    if (!part.table.vacant(row) && part.values[row] != kNotJudged)
+      ratios_.push_back(part.values[row] / part.threshold(row));
+}
+
 void CriterionField::note_nearest(const NearestMatch& candidate, const ForceMoment& moment) {
-  const bool nearer = nearest_.where == gmap::kNoDart || candidate.value / candidate.threshold >
-                                                             nearest_.value / nearest_.threshold;
-  if (candidate.where == gmap::kNoDart || !nearer) return;
+  if (candidate.where == gmap::kNoDart) return;
+  if (nearest_.where != gmap::kNoDart && !(ratio(candidate) > ratio(nearest_))) return;
   nearest_ = candidate;
   const VertexRecord& at = moment.position[context_.vertices().row(candidate.where)];
   nearest_.position = {at.x, at.y, at.z};
 }
 
 void CriterionField::fire(Part& part, std::uint32_t shape, std::uint32_t row,
-                          const ForceMoment& moment, double value, double threshold,
-                          std::vector<TearRequest>& requests) {
-  TearRequest request{.pairing = number_, .hook = part.table.nodes(row)[body_.hook],
-                      .node = body_.hook, .value = value, .threshold = threshold,
+                          const ForceMoment& moment, std::vector<TearRequest>& requests) {
+  TearRequest request{.pairing = number_, .hook = hook(part, row), .node = body_.hook,
+                      .value = part.values[row], .threshold = part.threshold(row),
                       .results = {}, .orbit = {}};
   if (!part.results.roots.empty()) {
     const ForceMatch match = part.table.match(row, shape);

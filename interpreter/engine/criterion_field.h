@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/force_kernel.h"
@@ -43,6 +44,8 @@ class CriterionField {
   /// Value over threshold of all matches in the last judgement, if they are kept.
   [[nodiscard]] const std::vector<double>& ratios() const { return ratios_; }
   void keep_ratios(bool keep) { keep_ratios_ = keep; }
+  /// Its tables as text (`gmsim explain`).
+  [[nodiscard]] std::string explain() const;
   [[nodiscard]] const TearPairing& pairing() const { return pairing_; }
   [[nodiscard]] const compile::CriterionBody& body() const { return body_; }
 
@@ -64,10 +67,12 @@ class CriterionField {
   void pack(Part& part);
   Diagnostic judge_part(Part& part, std::uint32_t shape, const ForceMoment& moment,
                         NearestMatch& nearest, std::vector<TearRequest>& requests);
+  void note_ratios(const Part& part);
+  [[nodiscard]] DartId hook(const Part& part, std::uint32_t row) const;
   /// Takes over the nearest match of a judgement if none before was nearer.
   void note_nearest(const NearestMatch& candidate, const ForceMoment& moment);
   void fire(Part& part, std::uint32_t shape, std::uint32_t row, const ForceMoment& moment,
-            double value, double threshold, std::vector<TearRequest>& requests);
+            std::vector<TearRequest>& requests);
 
   const ForceContext& context_;
   const TearPairing& pairing_;
@@ -88,9 +93,10 @@ class CriterionField {
 /// What a criterion reads of forces.
 struct ForceReads {
   std::vector<types::OrbitType> orbits;  ///< on which it reads sums: they need an index
-  bool any = false;
+  bool internal = false;  ///< the sum of all internal forces on a vertex
+  bool single = false;    ///< other sums, or forces one by one
 };
 [[nodiscard]] ForceReads force_reads(const compile::CriterionBody& body,
-                                     const gmap::EmbeddingSchema& schema);
+                                     const gmap::EmbeddingSchema& schema, types::OrbitType vertex);
 
 }  // namespace gmsim::engine

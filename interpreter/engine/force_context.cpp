@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/force_context.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "support/check.h"
@@ -59,11 +60,20 @@ ValueSources all_sources(const State& state, const std::vector<ActiveInteraction
   return sources;
 }
 
+/// Loads last: then the sum of all internal forces on a vertex is how the sum of all begins.
+std::vector<ActiveInteraction> with_loads_last(const State& state,
+                                               std::vector<ActiveInteraction> active) {
+  std::stable_partition(active.begin(), active.end(), [&](const ActiveInteraction& one) {
+    return !state.program.interaction_bodies[one.interaction].external;
+  });
+  return active;
+}
+
 }  // namespace
 
 ForceContext::ForceContext(const State& of, std::vector<ActiveInteraction> interactions)
     : state(of),
-      active(std::move(interactions)),
+      active(with_loads_last(of, std::move(interactions))),
       position(find_position(of)),
       velocity(of.program.schema.find("velocity")),
       in_motion(moving_values(of, active, position, velocity)),

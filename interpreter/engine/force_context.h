@@ -33,7 +33,7 @@ struct ForceContext {
   [[nodiscard]] const gmap::OrbitIndex& vertices() const { return state.store.index_of(position); }
 
   const State& state;
-  const std::vector<ActiveInteraction> active;
+  const std::vector<ActiveInteraction> active;  ///< loads last; a match's interaction is a number here
   const EmbeddingId position;
   const std::optional<EmbeddingId> velocity;
   const std::vector<bool> in_motion;  ///< by EmbeddingId

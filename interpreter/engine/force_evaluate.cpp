@@ -29,7 +29,7 @@ void evaluate_match(const ForceProgram& program, const ForceMatch& match, const 
         break;
       case Kind::Own: set({match.own.data() + origin.offset, origin.width}); break;
       case Kind::ForceOn:
-        set_vector(moment.forces->find(origin.orbit, origin.offset)->values());
+        set_vector(moment.forces->values(origin.orbit, origin.offset));
         break;
       case Kind::AtomicForce: set_vector(moment.forces->atomic); break;
       case Kind::Time: set({&moment.time, 1}); break;

@@ -41,8 +41,7 @@ class ForceField {
   virtual bool evaluate(const Motion& motion, double time, double dt,
                         std::span<VertexRecord> force) = 0;
   /// The same at the end of a step, which is the state that criteria judge and where the next step
-  /// begins. With ForceOptions::atomic the forces of single matches are computed there, each by
-  /// itself, and kept.
+  /// begins. What ForceOptions asks for is kept from there.
   virtual bool evaluate_end(const Motion& motion, double time, double dt,
                             std::span<VertexRecord> force) {
     return evaluate(motion, time, dt, force);
@@ -61,8 +60,8 @@ class ForceField {
                        std::span<const VertexRecord> dv, std::span<VertexRecord> out) = 0;
   /// Upper bounds of the largest eigenvalue of the stiffness against the masses (1/s^2), and of the
   /// damping (1/s), from single elements and their corner masses: they stay bounds when elements
-  /// are torn apart. `where` and `interaction` (number in the model) name a match in the stiffest
-  /// element. Vertices that are `fixed` are left out.
+  /// are torn apart. `where` and `interaction` (index into Program::interactions) name a match in the
+  /// stiffest element. Vertices that are `fixed` are left out.
   struct ElementBound {
     double stiffness = 0;
     double damping = 0;
@@ -86,8 +85,7 @@ class ForceField {
   [[nodiscard]] virtual bool reads_velocity() const = 0;
   [[nodiscard]] virtual bool reads_time() const = 0;
 
-  // What criteria read; a field without a context keeps no forces of single matches. Atomic forces
-  // need ForceOptions::atomic.
+  // What criteria read, as ForceOptions asks for it; a field without a context keeps nothing.
   [[nodiscard]] virtual const ForceContext* context() const { return nullptr; }
   /// Appends every internal atomic force that is kept, in the canonical order.
   virtual void list_atomic(std::vector<AtomicForce>&) const {}
@@ -95,6 +93,9 @@ class ForceField {
   [[nodiscard]] virtual const AtomicForceChanges* atomic_changes() const { return nullptr; }
   /// The forces of single matches on vertices (N), as the last evaluate_end() left them.
   [[nodiscard]] virtual std::span<const VertexRecord> atomic_slots() const { return {}; }
+
+  /// The sum of all internal forces on each vertex (N), by row, as the last evaluate_end() left it.
+  [[nodiscard]] virtual std::span<const VertexRecord> internal_sums() const { return {}; }
 
   /// work(context, begin, end) for disjoint ranges that make up the rows 0 … rows-1, on the threads
   /// that evaluate forces. What is written for a row may depend on nothing that is written for others.
@@ -117,8 +118,9 @@ struct ForceOptions {
   /// Add up matches between the same two vertices (parallel springs) where their forces are linear
   /// in what differs. Changes rounding, so it has to depend on rules and criteria alone.
   bool merge = true;
-  /// Keep the forces of single matches at the ends of steps, for criteria.
-  bool atomic = false;
+  // Of the ends of steps, for criteria:
+  bool internal = false;  ///< keep the sums of internal forces on vertices
+  bool atomic = false;    ///< keep the forces of single matches, each computed by itself
 };
 
 /// Batched kernels over cached match tables (the engine that runs), on `threads` threads.

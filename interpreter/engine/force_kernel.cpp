@@ -70,10 +70,7 @@ InputBinding ForceKernel::binding(const InputOrigin& origin, const MatchTable& t
       const MatchTable::OwnColumn own = table.own(origin.offset);
       return {own.begin, own.stride, nullptr, true};
     }
-    case Kind::ForceOn: {
-      const OrbitForces* sum = moment.forces->find(origin.orbit, origin.offset);
-      return {numbers(sum->values()), kRecord, table.rows(origin.role).data(), true};
-    }
+    case Kind::ForceOn: return vertex(moment.forces->values(origin.orbit, origin.offset));
     case Kind::AtomicForce: return vertex(moment.forces->atomic);
     case Kind::Time: return {&moment.time};
     case Kind::Dt: return {&moment.dt};

@@ -238,6 +238,13 @@ void MergedTable::members(std::uint32_t row, std::vector<DartId>& keys) const {
     keys.push_back(key);
 }
 
+MergedTable::Share MergedTable::share(std::uint32_t row, std::uint32_t force,
+                                      const std::array<Row, 2>& ends) const {
+  const MatchTable::OwnColumn count = table_.own(value_count_);
+  const bool straight = ends[0] == table_.rows(0)[row];
+  return {straight ? force : 1 - force, 1 / count.begin[std::size_t{count.stride} * row]};
+}
+
 void MergedTable::remove(std::uint32_t row) {
   for (DartId key = table_.key(row); key != gmap::kNoDart;)
     key = std::exchange(by_key_[types::index(key)], Member{}).next;

@@ -50,6 +50,16 @@ class MergedTable {
   void group(const MatchTable& atomic, const gmap::EmbeddingStore& store,
              std::span<const std::uint32_t> rows);
 
+  /// Where the force of one match stands in its group, all of whose matches push alike
+  /// (MergePlan::counted).
+  struct Share {
+    std::uint32_t force = 0;  ///< of the group
+    double share = 1;
+  };
+  /// Of force number `force` of a match with these ends.
+  [[nodiscard]] Share share(std::uint32_t row, std::uint32_t force,
+                            const std::array<Row, 2>& ends) const;
+
   [[nodiscard]] const MatchTable& table() const { return table_; }
   [[nodiscard]] const ForceKernel& kernel() const { return kernel_; }
   [[nodiscard]] const ForceKernel& product();

@@ -37,7 +37,7 @@ void ForcePass::lay_out(Row vertices, std::uint32_t chunks) {
     for (std::uint32_t shape = 0; shape < of->shape_count(); ++shape) add_block(*of, shape);
   }
   for (const Block& block : blocks_) rows += block.laid_out;
-  schedule_ = plan_schedule(pieces(), vertices, chunks, matches_ == Matches::Single);
+  schedule_ = plan_schedule(pieces(), vertices, chunks, kind_ == Forces::Kept);
   for (const ForcePiece& piece : schedule_.pieces)
     blocks_[piece.block].first_slots[piece.begin / kPiece] = piece.first_slot;
   forces_.resize(schedule_.slots);
@@ -116,6 +116,9 @@ void ForcePass::each_term(const Visit& visit) const {
 }
 
 void ForcePass::make_sums(Row vertices) {
+  const auto load = std::find_if(tables_.begin(), tables_.end(),
+                                 [](const auto& of) { return of->body().external; });
+  sums_.loads_from(force_order(static_cast<std::uint32_t>(load - tables_.begin()), DartId{0}, 0));
   sums_.rebuild(vertices, [&](const auto& visit) { each_term(visit); });
 }
 
@@ -207,7 +210,8 @@ bool ForcePass::run_piece(const ForcePiece& piece, std::uint32_t number,
   return !row;
 }
 
-void ForcePass::run_chunk(const ForceChunk& chunk, ForceWorkers::Space& space, VertexRecord* out) {
+void ForcePass::run_chunk(const ForceChunk& chunk, ForceWorkers::Space& space,
+                          const ForceSums::Totals& out) {
   const auto late = static_cast<std::uint32_t>(late_.size());
   for (std::uint32_t p = chunk.begin; p < chunk.end; ++p) {
     const ForcePiece& piece = schedule_.pieces[p];
@@ -219,7 +223,7 @@ void ForcePass::run_chunk(const ForceChunk& chunk, ForceWorkers::Space& space, V
 std::optional<ForcePass::Failure> ForcePass::run(PassKernels kernels, const ForceMoment& moment,
                                                  const gmap::EmbeddingStore& store,
                                                  ForceWorkers& workers, bool alone,
-                                                 std::span<VertexRecord> out) {
+                                                 const ForceSums::Totals& out) {
   for (ForceWorkers::Space& space : workers.spaces) space.failed = {};
   if (late_stale_) make_late_pieces();
   followed_ = kernels == PassKernels::Forces;
@@ -233,10 +237,10 @@ std::optional<ForcePass::Failure> ForcePass::run(PassKernels kernels, const Forc
     run_piece(late_[p], p, workers.spaces[worker]);
   });
   share(schedule_.chunks.size(), [&](std::uint32_t c, unsigned worker) {
-    run_chunk(schedule_.chunks[c], workers.spaces[worker], out.data());
+    run_chunk(schedule_.chunks[c], workers.spaces[worker], out);
   });
   share(last_.size(), [&](std::uint32_t k, unsigned) {
-    sums_.sum(forces_.data(), last_[k].begin, last_[k].end, out.data());
+    sums_.sum(forces_.data(), last_[k].begin, last_[k].end, out);
   });
   return first_failure(workers);
 }

@@ -39,19 +39,20 @@ enum class PassKernels : std::uint8_t { Forces, Products };
 /// without looking at the others, until so much has changed that it is better laid out anew.
 class ForcePass {
  public:
-  enum class Matches : std::uint8_t {
-    Single,  ///< each by itself; their forces stay to be read
-    Merged   ///< added up first, where matches merge
+  enum class Forces : std::uint8_t {
+    Summed,  ///< only their sums count; where matches merge, they are added up first
+    Kept     ///< stay to be read; matches merge only where that of each can be told
   };
   using Tables = std::vector<std::unique_ptr<InteractionTables>>;
 
-  ForcePass(const Tables& tables, Matches matches) : tables_(tables), matches_(matches) {}
+  ForcePass(const Tables& tables, Forces forces) : tables_(tables), kind_(forces) {}
 
   void lay_out(Row vertices, std::uint32_t chunks);
   /// Tables or columns may be elsewhere from now on.
   void unbind() { unbound_ = true; }
   [[nodiscard]] bool merges(const InteractionTables& of, std::uint32_t shape) const {
-    return matches_ == Matches::Merged && of.merged(shape) != nullptr;
+    const MergedTable* merged = of.merged(shape);
+    return merged != nullptr && (kind_ == Forces::Summed || merged->plan().counted);
   }
 
   // Single rows: of the merged table where the pass merges, else of the table of matches.
@@ -71,16 +72,16 @@ class ForcePass {
   /// Sums into `out`. After a result that is not finite: where, the same on any number of threads.
   std::optional<Failure> run(PassKernels kernels, const ForceMoment& moment,
                              const gmap::EmbeddingStore& store, ForceWorkers& workers, bool alone,
-                             std::span<VertexRecord> out);
+                             const ForceSums::Totals& out);
   /// The same at the motion of the last run, whose sums are in `out`: only vertices with other
   /// matches than then are summed again, unless everything was laid out anew since.
   std::optional<Failure> run_changes(const ForceMoment& moment, const gmap::EmbeddingStore& store,
-                                     ForceWorkers& workers, std::span<VertexRecord> out);
+                                     ForceWorkers& workers, const ForceSums::Totals& out);
 
   [[nodiscard]] const ForceSums& sums() const { return sums_; }
-  /// Forces of single matches.
+  /// Kept forces.
   [[nodiscard]] std::span<const VertexRecord> slots() const { return forces_; }
-  /// That of force number `force` of a match.
+  /// That of force number `force` of a row: of the merged table where the pass merges.
   [[nodiscard]] SignedSlot slot(const InteractionTables& of, std::uint32_t shape,
                                 std::uint32_t force, std::uint32_t row) const {
     return blocks_[block_of(of, shape)].slot(force, row);
@@ -138,7 +139,8 @@ class ForcePass {
   void bind(PassKernels kernels, const ForceMoment& moment, const gmap::EmbeddingStore& store);
   /// `number`: in the order of all pieces, late ones first.
   bool run_piece(const ForcePiece& piece, std::uint32_t number, ForceWorkers::Space& space);
-  void run_chunk(const ForceChunk& chunk, ForceWorkers::Space& space, VertexRecord* out);
+  void run_chunk(const ForceChunk& chunk, ForceWorkers::Space& space,
+                 const ForceSums::Totals& out);
   [[nodiscard]] std::optional<Failure> first_failure(const ForceWorkers& workers) const;
 
   // Changes (force_pass_changes.cpp).
@@ -148,11 +150,11 @@ class ForcePass {
     auto operator<=>(const RowAt&) const = default;
   };
   bool run_linked(ForceWorkers::Space& space);
-  void sum_from_scratch(ForceWorkers::Space& space, VertexRecord* out);
+  void sum_from_scratch(ForceWorkers::Space& space, const ForceSums::Totals& out);
   [[nodiscard]] RowAt row_of(ForceOrder order) const;
 
   const Tables& tables_;
-  const Matches matches_;
+  const Forces kind_;
   std::vector<Block> blocks_;              // by interaction, by shape
   std::vector<std::size_t> first_block_;   // by interaction
   std::vector<VertexRecord> forces_;       // by slot

@@ -30,7 +30,7 @@ void each_run(const std::vector<RowAt>& rows, std::uint32_t piece, const First& 
 std::optional<ForcePass::Failure> ForcePass::run_changes(const ForceMoment& moment,
                                                          const gmap::EmbeddingStore& store,
                                                          ForceWorkers& workers,
-                                                         std::span<VertexRecord> out) {
+                                                         const ForceSums::Totals& out) {
   if (!followed_) return run(PassKernels::Forces, moment, store, workers, true, out);
   for (ForceWorkers::Space& space : workers.spaces) space.failed = {};
   bind(PassKernels::Forces, moment, store);
@@ -38,10 +38,10 @@ std::optional<ForcePass::Failure> ForcePass::run_changes(const ForceMoment& mome
   support::sort_once(linked_);
   support::sort_once(relisted_);
   ForceWorkers::Space& space = workers.spaces[0];
-  if (matches_ == Matches::Merged) {
-    sum_from_scratch(space, out.data());
+  if (kind_ == Forces::Summed) {
+    sum_from_scratch(space, out);
   } else if (run_linked(space)) {
-    for (const Row vertex : relisted_) sums_.sum(forces_.data(), vertex, vertex + 1, out.data());
+    for (const Row vertex : relisted_) sums_.sum(forces_.data(), vertex, vertex + 1, out);
   }
   linked_.clear();
   relisted_.clear();
@@ -75,7 +75,7 @@ ForcePass::RowAt ForcePass::row_of(ForceOrder order) const {
 }
 
 /// Slots are used several times within a run, so every force on the vertices is computed again.
-void ForcePass::sum_from_scratch(ForceWorkers::Space& space, VertexRecord* out) {
+void ForcePass::sum_from_scratch(ForceWorkers::Space& space, const ForceSums::Totals& out) {
   std::vector<RowAt> rows;
   for (const Row vertex : relisted_)
     for (const ForceOrder order : sums_.orders(vertex)) rows.push_back(row_of(order));
@@ -113,9 +113,7 @@ void ForcePass::sum_from_scratch(ForceWorkers::Space& space, VertexRecord* out) 
       const auto [output, negative] = blocks_[at.block].kernel->root(force_of(order));
       slots.push_back(signed_slot(first_slots[k] + output * strides[k], negative));
     }
-    const SlotList list{0, static_cast<std::uint32_t>(slots.size()),
-                        static_cast<std::uint32_t>(slots.size())};
-    sum_records(forces.empty() ? nullptr : &forces[0].x, &list, slots.data(), 1, &out[vertex].x);
+    sums_.sum(forces.data(), vertex, slots, out);
   }
 }
 

@@ -42,6 +42,7 @@ void ForceSums::insert(const Term& term) {
   }
   orders_[at] = term.order;
   slots_[at] = term.slot;
+  if (internal(term.order)) ++list.inner;
 }
 
 void ForceSums::erase(Row vertex, ForceOrder order) {
@@ -53,11 +54,29 @@ void ForceSums::erase(Row vertex, ForceOrder order) {
   std::copy(slot + 1, slots_.begin() + list.begin + list.count, slot);
   std::copy(at + 1, end, at);
   --list.count;
+  if (internal(order)) --list.inner;
 }
 
-void ForceSums::sum(const VertexRecord* forces, Row begin, Row end, VertexRecord* out) const {
+namespace {
+
+double* numbers(VertexRecord* records, Row row) {
+  return records == nullptr ? nullptr : &records[row].x;
+}
+
+}  // namespace
+
+void ForceSums::sum(const VertexRecord* forces, Row begin, Row end, const Totals& out) const {
   if (begin >= end) return;
-  sum_records(&forces->x, lists_.data() + begin, slots_.data(), end - begin, &out[begin].x);
+  sum_records(&forces->x, lists_.data() + begin, slots_.data(), end - begin,
+              numbers(out.all, begin), numbers(out.internal, begin));
+}
+
+void ForceSums::sum(const VertexRecord* forces, Row vertex, std::span<const SignedSlot> slots,
+                    const Totals& out) const {
+  SlotList list = lists_[vertex];
+  list.begin = 0;
+  sum_records(&forces->x, &list, slots.data(), 1, numbers(out.all, vertex),
+              numbers(out.internal, vertex));
 }
 
 }  // namespace gmsim::engine

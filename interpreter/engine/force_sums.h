@@ -31,12 +31,20 @@ using ForceOrder = std::uint64_t;
 /// they do not depend on rows, blocks or threads.
 class ForceSums {
  public:
+  /// Where sums go, by row of the vertex index: of all forces, and of those without loads unless that
+  /// is null.
+  struct Totals {
+    VertexRecord* all = nullptr;
+    VertexRecord* internal = nullptr;
+  };
   struct Term {
     Row vertex = 0;
     ForceOrder order = 0;
     SignedSlot slot{};
   };
 
+  /// Terms of this order and later ones are of loads.
+  void loads_from(ForceOrder order) { loads_from_ = order; }
   /// `each(visit)` calls visit(term) for all terms, those of one vertex in the canonical order; it is
   /// called twice.
   template <typename EachTerm>
@@ -48,6 +56,7 @@ class ForceSums {
       SlotList& list = lists_[term.vertex];
       slots_[list.begin + list.count] = term.slot;
       orders_[list.begin + list.count++] = term.order;
+      if (internal(term.order)) ++list.inner;
     });
   }
   /// Makes room for new vertices, without forces.
@@ -55,8 +64,11 @@ class ForceSums {
   void insert(const Term& term);
   void erase(Row vertex, ForceOrder order);
 
-  /// out[v] := sum of the forces on vertex v, for begin <= v < end.
-  void sum(const VertexRecord* forces, Row begin, Row end, VertexRecord* out) const;
+  /// out.all[v] := sum of the forces on vertex v, for begin <= v < end.
+  void sum(const VertexRecord* forces, Row begin, Row end, const Totals& out) const;
+  /// The same from other forces, in the order of the list, with slots of their own.
+  void sum(const VertexRecord* forces, Row vertex, std::span<const SignedSlot> slots,
+           const Totals& out) const;
   [[nodiscard]] std::span<const ForceOrder> orders(Row vertex) const {
     const SlotList& list = lists_[vertex];
     return {orders_.data() + list.begin, list.count};
@@ -64,9 +76,11 @@ class ForceSums {
   [[nodiscard]] Row vertices() const { return static_cast<Row>(lists_.size()); }
 
  private:
+  [[nodiscard]] bool internal(ForceOrder order) const { return order < loads_from_; }
   void make_room();
   void extend(SlotList& list);
 
+  ForceOrder loads_from_ = ~ForceOrder{0};
   std::vector<SlotList> lists_;  // by vertex row
   std::vector<SignedSlot> slots_;
   std::vector<ForceOrder> orders_;  // parallel to slots_

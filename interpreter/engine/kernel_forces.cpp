@@ -33,10 +33,11 @@ void ThreadProbe::note(double seconds) {
 KernelForces::KernelForces(const State& state, const Model& model, unsigned threads,
                            ForceOptions options)
     : context_(state, model.interactions),
-      main_(interactions_, ForcePass::Matches::Merged),
+      main_(interactions_, ForcePass::Forces::Summed),
+      keep_internal_(options.internal),
       workers_(std::max(1u, threads)) {
   if (options.atomic)
-    atomic_ = std::make_unique<ForcePass>(interactions_, ForcePass::Matches::Single);
+    atomic_ = std::make_unique<ForcePass>(interactions_, ForcePass::Forces::Kept);
   for (std::uint32_t i = 0; i < context_.active.size(); ++i)
     interactions_.push_back(std::make_unique<InteractionTables>(context_, i, options.merge));
 }
@@ -71,12 +72,19 @@ ForceMoment KernelForces::moment(const Motion& motion, double time, double dt) c
 
 bool KernelForces::evaluate(const Motion& motion, double time, double dt,
                             std::span<VertexRecord> force) {
-  return run(main_, PassKernels::Forces, moment(motion, time, dt), force);
+  return run(main_, PassKernels::Forces, moment(motion, time, dt), {force.data()});
+}
+
+ForceSums::Totals KernelForces::end_totals(std::span<VertexRecord> force) {
+  if (!keep_internal_) return {force.data()};
+  internal_.resize(force.size());
+  return {force.data(), internal_.data()};
 }
 
 bool KernelForces::evaluate_end(const Motion& motion, double time, double dt,
                                 std::span<VertexRecord> force) {
-  return run(atomic_ ? *atomic_ : main_, PassKernels::Forces, moment(motion, time, dt), force);
+  return run(atomic_ ? *atomic_ : main_, PassKernels::Forces, moment(motion, time, dt),
+             end_totals(force));
 }
 
 bool KernelForces::evaluate_changes(const Motion& motion, double time, double dt,
@@ -86,7 +94,8 @@ bool KernelForces::evaluate_changes(const Motion& motion, double time, double dt
   if (error_) return false;
   ForcePass& pass = atomic_ ? *atomic_ : main_;
   const ForceMoment now = moment(motion, time, dt);
-  const auto failure = pass.run_changes(now, context_.state.store, workers_, force);
+  const auto failure =
+      pass.run_changes(now, context_.state.store, workers_, end_totals(force));
   return !failure || fail(*failure, PassKernels::Forces, now);
 }
 
@@ -95,11 +104,11 @@ bool KernelForces::product(const Motion& motion, double time, std::span<const Ve
   ForceMoment now = moment(motion, time, context_.state.dt);
   now.position_change = dx;
   now.velocity_change = dv;
-  return run(main_, PassKernels::Products, now, out);
+  return run(main_, PassKernels::Products, now, {out.data()});
 }
 
 bool KernelForces::run(ForcePass& pass, PassKernels kernels, const ForceMoment& moment,
-                       std::span<VertexRecord> out) {
+                       const ForceSums::Totals& out) {
   if (error_) return false;
   const gmap::EmbeddingStore& store = context_.state.store;
   const bool probing = workers_.threads.count() > 1 && !probe_.decided() && &pass == &main_;

@@ -34,7 +34,7 @@ class ThreadProbe {
 };
 
 /// Forces by kernels over match tables. Where criteria read single forces there are two passes: one
-/// that merges what it can, and one that does not, for the ends of steps.
+/// for sums alone, and one that keeps the forces, for the ends of steps.
 class KernelForces final : public ForceField {
  public:
   KernelForces(const State& state, const Model& model, unsigned threads, ForceOptions options);
@@ -65,6 +65,7 @@ class KernelForces final : public ForceField {
   [[nodiscard]] std::span<const VertexRecord> atomic_slots() const override {
     return atomic_ ? atomic_->slots() : std::span<const VertexRecord>{};
   }
+  [[nodiscard]] std::span<const VertexRecord> internal_sums() const override { return internal_; }
   [[nodiscard]] const std::optional<support::Diagnostic>& error() const override { return error_; }
   [[nodiscard]] std::string explain() const override;
 
@@ -103,10 +104,16 @@ class KernelForces final : public ForceField {
   void list_placed();
   void list_match(const InteractionTables& of, InteractionTables::Place place,
                   std::vector<AtomicForce>& out) const;
+  /// Where a force of a match is kept, and how much of what stands there it is.
+  [[nodiscard]] std::pair<SignedSlot, double> kept_force(const InteractionTables& of,
+                                                         InteractionTables::Place place,
+                                                         std::uint32_t force) const;
   /// Is one thread to do all of it?
   [[nodiscard]] bool alone() const { return workers_.threads.count() == 1 || probe_.alone(); }
   bool run(ForcePass& pass, PassKernels kernels, const ForceMoment& moment,
-           std::span<VertexRecord> out);
+           const ForceSums::Totals& out);
+  /// The totals that the end of a step leaves.
+  ForceSums::Totals end_totals(std::span<VertexRecord> force);
   /// Numbers that a kernel with one root leaves for each match of a shape, `values` long enough.
   bool run_numbers(InteractionTables& of, std::size_t shape, const ForceKernel& kernel,
                    const ForceMoment& moment, std::vector<double>& values);
@@ -121,6 +128,8 @@ class KernelForces final : public ForceField {
   std::vector<std::unique_ptr<InteractionTables>> interactions_;
   ForcePass main_;
   std::unique_ptr<ForcePass> atomic_;     // null when nobody asks for single forces
+  const bool keep_internal_;
+  std::vector<VertexRecord> internal_;    // sums on vertices, when kept
   AtomicForceChanges changes_;            // of the last refresh, unless all are listed anew
   bool listed_anew_ = true;
   std::vector<std::pair<std::uint32_t, DartId>> placed_;  // interaction and key of matches put in

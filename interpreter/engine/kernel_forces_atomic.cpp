@@ -46,11 +46,25 @@ void KernelForces::list_match(const InteractionTables& of, InteractionTables::Pl
     const auto sharing = std::count_if(targets.begin(), targets.end(), [&](const auto& other) {
       return other.root == targets[t].root;
     });
-    const double share = 1 / static_cast<double>(sharing);
-    const SignedSlot slot = atomic_->slot(of, place.shape, targets[t].root, place.row);
+    const auto [slot, of_slot] = kept_force(of, place, targets[t].root);
+    const double share = of_slot / static_cast<double>(sharing);
     out.push_back({darts[t], targets[t].orbit, of.body().id, number_of(slot),
                    is_negative(slot) ? -share : share, of.number(), table.key(place.row), t});
   }
+}
+
+std::pair<SignedSlot, double> KernelForces::kept_force(const InteractionTables& of,
+                                                       InteractionTables::Place place,
+                                                       std::uint32_t force) const {
+  if (!atomic_->merges(of, place.shape))
+    return {atomic_->slot(of, place.shape, force, place.row), 1.0};
+  const MergedTable& merged = *of.merged(place.shape);
+  const MatchTable& table = of.table(place.shape);
+  const auto& ends = merged.plan().ends;
+  const std::uint32_t group = merged.group_of(table.key(place.row));
+  const auto [of_group, share] = merged.share(
+      group, force, {table.rows(ends[0])[place.row], table.rows(ends[1])[place.row]});
+  return {atomic_->slot(of, place.shape, of_group, group), share};
 }
 
 }  // namespace gmsim::engine

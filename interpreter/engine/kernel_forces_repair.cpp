@@ -100,9 +100,19 @@ void KernelForces::put_in(Repair& repair, DartId key) {
 // ---- merged matches -----------------------------------------------------------------------------
 
 void KernelForces::dissolve(Repair& repair, std::uint32_t shape, std::uint32_t group) {
-  MergedTable& merged = *repair.of->merged(shape);
-  main_.unlink(*repair.of, shape, group);
-  merged.members(group, repair.regroup[shape]);
+  InteractionTables& of = *repair.of;
+  MergedTable& merged = *of.merged(shape);
+  std::vector<DartId>& keys = repair.regroup[shape];
+  const std::size_t before = keys.size();
+  merged.members(group, keys);
+  each_pass([&](ForcePass& pass) {
+    if (pass.merges(of, shape)) pass.unlink(of, shape, group);
+  });
+  if (atomic_ && atomic_->merges(of, shape))  // their forces will be kept elsewhere
+    for (std::size_t k = before; k < keys.size(); ++k) {
+      note_gone(of, of.place(keys[k]));
+      note_placed(of, keys[k]);
+    }
   merged.remove(group);
 }
 
@@ -135,8 +145,11 @@ void KernelForces::merge_again(Repair& repair) {
     MergedTable& merged = *of.merged(shape);
     const std::uint32_t before = merged.table().size();
     merged.group(of.table(shape), context_.state.store, rows);
-    for (std::uint32_t row = before; row < merged.table().size(); ++row)
-      main_.link(of, shape, row);
+    each_pass([&](ForcePass& pass) {
+      if (!pass.merges(of, shape)) return;
+      for (std::uint32_t row = before; row < merged.table().size(); ++row)
+        pass.link(of, shape, row);
+    });
   }
 }
 

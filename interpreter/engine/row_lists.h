@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/kernel/record_sums.h"
 #include "support/check.h"
 
 namespace gmsim::engine {
@@ -22,7 +23,7 @@ class RowLists {
     lists_.assign(rows, {});
     std::uint32_t begin = 0;
     for (std::size_t row = 0; row < rows; ++row) {
-      lists_[row] = {begin, 0, count(row)};
+      lists_[row] = {begin, 0, count(row), 0};
       begin += lists_[row].capacity;
     }
     entries_.assign(begin, Entry{});
@@ -38,7 +39,7 @@ class RowLists {
 
   void append(std::size_t row, const Entry& entry) { insert(row, lists_[row].count, entry); }
   void insert(std::size_t row, std::size_t at, const Entry& entry) {
-    List& list = lists_[row];
+    SlotList& list = lists_[row];
     if (list.count == list.capacity) move_to_end(list);
     Entry* const begin = entries_.data() + list.begin;
     std::copy_backward(begin + at, begin + list.count, begin + list.count + 1);
@@ -46,7 +47,7 @@ class RowLists {
     ++list.count;
   }
   void erase(std::size_t row, std::size_t at) {
-    List& list = lists_[row];
+    SlotList& list = lists_[row];
     GMSIM_CHECK(at < list.count, "an entry that is taken away was not there");
     Entry* const begin = entries_.data() + list.begin;
     std::copy(begin + at + 1, begin + list.count, begin + at);
@@ -54,11 +55,12 @@ class RowLists {
   }
   void clear(std::size_t row) { lists_[row].count = 0; }
 
+  // As sum_records() wants them.
+  [[nodiscard]] const SlotList* lists() const { return lists_.data(); }
+  [[nodiscard]] const Entry* entries() const { return entries_.data(); }
+
  private:
-  struct List {
-    std::uint32_t begin = 0, count = 0, capacity = 0;
-  };
-  void move_to_end(List& list) {
+  void move_to_end(SlotList& list) {
     const auto begin = static_cast<std::uint32_t>(entries_.size());
     list.capacity = list.count + list.count / 2 + 4;
     entries_.resize(begin + list.capacity);
@@ -66,7 +68,7 @@ class RowLists {
     list.begin = begin;
   }
 
-  std::vector<List> lists_;
+  std::vector<SlotList> lists_;
   std::vector<Entry> entries_;
 };
 

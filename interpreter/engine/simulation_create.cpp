@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-
 #include "engine/criterion_field.h"
 #include "engine/integrators.h"
 #include "engine/simulation.h"
@@ -8,10 +6,16 @@
 namespace gmsim::engine {
 namespace {
 
-bool criteria_read_forces(const State& state, const Model& model) {
-  return std::ranges::any_of(model.tears, [&](const TearPairing& tear) {
-    return force_reads(state.program.criterion_bodies[tear.criterion], state.program.schema).any;
-  });
+ForceOptions options_for_criteria(const State& state, const Model& model) {
+  ForceOptions options;
+  const auto vertex = types::OrbitType::cell(0, state.map.dimension());
+  for (const TearPairing& tear : model.tears) {
+    const ForceReads reads = force_reads(state.program.criterion_bodies[tear.criterion],
+                                         state.program.schema, vertex);
+    options.internal = options.internal || reads.internal;
+    options.atomic = options.atomic || reads.single;
+  }
+  return options;
 }
 
 }  // namespace
@@ -24,11 +28,11 @@ std::unique_ptr<Simulation> Simulation::create(State& state, Model model,
     diagnostics.report(std::move(*problem));
     return nullptr;
   }
-  const ForceOptions force_options{.atomic = criteria_read_forces(state, model)};
   std::unique_ptr<ForceField> forces =
       options.tree_kernel
           ? make_tree_forces(state, model, diagnostics)
-          : make_kernel_forces(state, model, options.threads, diagnostics, force_options);
+          : make_kernel_forces(state, model, options.threads, diagnostics,
+                               options_for_criteria(state, model));
   if (forces == nullptr) return nullptr;
   return create(state, std::move(model), std::move(settings), std::move(forces), options,
                 diagnostics);

@@ -38,9 +38,7 @@ void Simulation::Implementation::add_limit_notes(double dt, support::Diagnostic&
 std::string Simulation::Implementation::place_of_limit() const {
   if (limit_.where == gmap::kNoDart) return {};
   const std::string place = row_text(vertices().row(limit_.where));
-  if (limit_.interaction >= model_.interactions.size()) return place;
-  const std::uint32_t interaction = model_.interactions[limit_.interaction].interaction;
-  return fmt::format("`{}` at {}", state_.program.interactions[interaction].name, place);
+  return fmt::format("`{}` at {}", state_.program.interactions[limit_.interaction].name, place);
 }
 
 std::string Simulation::Implementation::row_text(Row row) const {

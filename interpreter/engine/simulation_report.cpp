@@ -126,7 +126,11 @@ std::string Simulation::Implementation::explain() const {
   const auto held = std::ranges::count(held_, true), fixed = std::ranges::count(fixed_, true);
   text += fmt::format("  vertices: {}, of them {} fixed and {} moved by decree\n",
                       vertices().orbit_count(), fixed, held - fixed);
-  return text + forces_->explain();
+  text += forces_->explain();
+  if (changes_ == nullptr || !changes_->has_criteria()) return text;
+  text += "criteria, judged once a step\n";
+  for (const auto& field : changes_->criteria().fields()) text += field->explain();
+  return text;
 }
 
 }  // namespace gmsim::engine

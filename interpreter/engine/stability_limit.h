@@ -16,7 +16,7 @@ struct StabilityLimit {
   double omega_global = 0;    ///< rad/s
   double damping_ratio = 0;   ///< of the top mode
   DartId where = gmap::kNoDart;   ///< a dart of the match that rules the bound
-  std::uint32_t interaction = 0;  ///< and its interaction, as the model numbers them
+  std::uint32_t interaction = 0;  ///< and its interaction, as the program numbers them
 };
 
 }  // namespace gmsim::engine

@@ -205,7 +205,7 @@ bool TreeForces::element_bound(const Motion& motion, double time, ElementBound& 
   bound = {.stiffness = largest.value,
            .damping = damping.largest().value,
            .where = largest.where,
-           .interaction = largest.interaction};
+           .interaction = context_.active[largest.interaction].interaction};
   return true;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How long a user waits before anything moves: to read the whole library (from its texts to checked
 // rules in every dimension of the map, and to the plans of one), to load a scene (which needs the
-// library in one dimension), and for the whole process that takes one step of the paper's cloth. To be
-// run from the top folder of the repository.
+// library in one dimension), and from the start of the process to the first step of the paper's cloth, its frame
+// written. To be run from the top folder of the repository.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
@@ -67,36 +67,63 @@ void read_scene(Times& times) {
 }
 
 struct ProcessTimes {
-  std::vector<double> wall, processor;  // ms
+  std::vector<double> first_step, whole, processor;  // ms
 };
 
-/// Runs gmsim once, its output thrown away.
+/// Reads what a program says to its end, and gives the moment at which it said `words`.
+std::chrono::steady_clock::time_point read_to_end(int stream, std::string_view words) {
+  std::chrono::steady_clock::time_point said{};
+  std::string text;
+  char buffer[4096];
+  bool found = false;
+  for (ssize_t count = 0; (count = read(stream, buffer, sizeof buffer)) > 0;) {
+    if (found) continue;
+    text.append(buffer, static_cast<std::size_t>(count));
+    found = text.find(words) != std::string::npos;
+    if (found) said = std::chrono::steady_clock::now();
+  }
+  GMSIM_CHECK(found, "gmsim reports its frames");
+  return said;
+}
+
+/// Runs gmsim for one step, after which it writes a frame and says so.
 void run_process(const std::filesystem::path& result, ProcessTimes& times) {
   // What the scene expects comes later than the first step.
-  std::vector<std::string> words{GMSIM_PROGRAM, kScene,    "--set", "duration=1e-3", "--set",
-                                 "expect=[]",   "--force", "-o",    result.string()};
+  std::vector<std::string> words{GMSIM_PROGRAM, kScene,     "--json",  "--set", "duration=1e-3",
+                                 "--set",       "expect=[]", "--force", "-o",   result.string()};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
-    posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_WRONLY, 0);
-  }
+  int ends[2];
+  GMSIM_CHECK(pipe(ends) == 0, "a pipe can be made");
+  posix_spawn_file_actions_t streams;
+  posix_spawn_file_actions_init(&streams);
+  posix_spawn_file_actions_adddup2(&streams, ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_addclose(&streams, ends[0]);
+  posix_spawn_file_actions_addclose(&streams, ends[1]);
+  posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   const auto start = std::chrono::steady_clock::now();
   pid_t child = 0;
-  GMSIM_CHECK(posix_spawn(&child, words[0].c_str(), &quiet, nullptr, arguments.data(), environ) == 0,
-              "gmsim can be started");
+  GMSIM_CHECK(
+      posix_spawn(&child, words[0].c_str(), &streams, nullptr, arguments.data(), environ) == 0,
+      "gmsim can be started");
+  close(ends[1]);
+  const auto stepped = read_to_end(ends[0], "\"frame\": 1,");
   int status = 0;
   rusage usage{};
   wait4(child, &status, 0, &usage);
-  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-  posix_spawn_file_actions_destroy(&quiet);
+  const auto end = std::chrono::steady_clock::now();
+  close(ends[0]);
+  posix_spawn_file_actions_destroy(&streams);
   GMSIM_CHECK(WIFEXITED(status) && WEXITSTATUS(status) == 0, "gmsim runs the scene");
+  const auto since_start = [&](std::chrono::steady_clock::time_point moment) {
+    return std::chrono::duration<double, std::milli>(moment - start).count();
+  };
   const auto milliseconds = [](const timeval& time) {
     return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
   };
-  times.wall.push_back(wall.count());
+  times.first_step.push_back(since_start(stepped));
+  times.whole.push_back(since_start(end));
   times.processor.push_back(milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime));
 }
 
@@ -147,9 +174,10 @@ int main(int argc, char** argv) {
   }
   row("the library: parse, check and compile", times.library, kReadAim);
   row("library and scene: parse, check and compile", times.scene, kReadAim);
-  row("one step of the 10 x 10 cloth: process, wall", process.wall, kProcessAim);
-  row("one step of the 10 x 10 cloth: processor", process.processor, kProcessAim);
+  row("10 x 10 cloth: process start to first step written", process.first_step, kProcessAim);
+  row("10 x 10 cloth: the whole process, one step", process.whole);
+  row("10 x 10 cloth: processor time of that", process.processor);
   const bool passed = least(times.library) <= kBar && least(times.scene) <= kBar &&
-                      least(process.processor) <= kBar;
+                      least(process.first_step) <= kBar;
   return must_pass && !passed ? 1 : 0;
 }

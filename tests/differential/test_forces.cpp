@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "engine/atomic_forces.h"
 #include "engine/ir_evaluate.h"
 #include "force_world.h"
 #include "gmap/mesh_builders.h"
@@ -32,12 +33,18 @@ std::unique_ptr<engine::ForceField> tree_forces(ForceWorld& world, const engine:
 }
 
 std::unique_ptr<engine::ForceField> kernel_forces(ForceWorld& world, const engine::Model& model,
-                                                  unsigned threads = 1, bool merge = false) {
+                                                  unsigned threads,
+                                                  engine::ForceOptions options) {
   support::Diagnostics diagnostics;
-  auto forces = engine::make_kernel_forces(world.state(), model, threads, diagnostics,
-                                           {.merge = merge});
+  auto forces =
+      engine::make_kernel_forces(world.state(), model, threads, diagnostics, options);
   REQUIRE_MESSAGE(forces, diagnostics.all().front().message);
   return forces;
+}
+
+std::unique_ptr<engine::ForceField> kernel_forces(ForceWorld& world, const engine::Model& model,
+                                                  unsigned threads = 1, bool merge = false) {
+  return kernel_forces(world, model, threads, engine::ForceOptions{.merge = merge});
 }
 
 Records evaluate(engine::ForceField& forces, const engine::Motion& motion, double time = 0) {
@@ -445,6 +452,69 @@ TEST_CASE("merged matches give the forces of single ones but for rounding") {
       REQUIRE(single->product(motion, 0, dx, dx, product));
       REQUIRE(merged->product(motion, 0, dx, dx, other));
       CHECK(largest(plus(other, scaled(-1, product))) <= 1e-14 * largest(product));
+    }
+  });
+}
+
+namespace {
+
+Records evaluate_end(engine::ForceField& forces, const engine::Motion& motion) {
+  Records force(motion.position.size());
+  REQUIRE_MESSAGE(forces.evaluate_end(motion, 0, 1e-3, force), forces.error()->message);
+  return force;
+}
+
+/// The forces of single matches as criteria read them, in the canonical order.
+Records kept_forces(const engine::ForceField& forces, std::vector<engine::AtomicForce>& list) {
+  list.clear();
+  forces.list_atomic(list);
+  Records result;
+  for (const engine::AtomicForce& force : list) {
+    const VertexRecord& there = forces.atomic_slots()[force.slot];
+    result.push_back({force.share * there.x, force.share * there.y, force.share * there.z, 0});
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("sums of internal forces are those of a model without loads, bit by bit") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t) {
+    const engine::Motion motion = world.motion();
+    const auto internal = kernel_forces(world, model_of(world.program(), true, is_internal), 1, true);
+    const Records expected = evaluate(*internal, motion);
+    const auto all = kernel_forces(world, model_of(world.program(), true, any), 3,
+                                   {.merge = true, .internal = true});
+    const Records force = evaluate_end(*all, motion);
+    const auto got = all->internal_sums();
+    REQUIRE(got.size() == expected.size());
+    CHECK(std::memcmp(got.data(), expected.data(), expected.size() * sizeof(VertexRecord)) == 0);
+    CHECK(largest(plus(force, scaled(-1, expected))) > 0.1);
+  });
+}
+
+TEST_CASE("forces of single matches are told apart where matches are merged") {
+  on_all_meshes([](ForceWorld& world, std::uint32_t) {
+    for (const bool uniform : {false, true}) {
+      const engine::Model model = model_of(world.program(), uniform, any);
+      const engine::Motion motion = world.motion();
+      const auto single = kernel_forces(world, model, 1, {.merge = false, .atomic = true});
+      const auto merged = kernel_forces(world, model, 1, {.merge = true, .internal = true, .atomic = true});
+      const double largest_force = largest(evaluate_end(*single, motion));
+      evaluate_end(*merged, motion);
+      std::vector<engine::AtomicForce> expected_list, list;
+      const Records expected = kept_forces(*single, expected_list), got = kept_forces(*merged, list);
+      REQUIRE(got.size() == expected.size());
+      CHECK(largest(plus(got, scaled(-1, expected))) <= 1e-14 * largest_force);
+      Records sums(motion.position.size());
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        CHECK(list[k].dart == expected_list[k].dart);
+        VertexRecord& sum = sums[world.vertices().row(list[k].dart)];
+        sum = {sum.x + got[k].x, sum.y + got[k].y, sum.z + got[k].z, 0};
+      }
+      const auto internal = merged->internal_sums();
+      const Records totals(internal.begin(), internal.end());
+      CHECK(largest(plus(sums, scaled(-1, totals))) <= 1e-13 * largest_force);
     }
   });
 }

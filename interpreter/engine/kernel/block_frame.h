@@ -36,7 +36,9 @@ inline constexpr std::size_t kKernelOps = 0
 struct OpTable {
   OpKernel code[kKernelOps][4] = {};
   void (*sum_slots)(const double* records, const SlotList* lists, const SignedSlot* slots,
-                    std::uint32_t rows, double* out) = nullptr;
+                    std::uint32_t rows, double* out, double* inner) = nullptr;
+  void (*sum_shares)(const double* records, const SlotList* lists, const SlotShare* shares,
+                     std::uint32_t rows, double* out) = nullptr;
 };
 
 namespace baseline {

@@ -111,6 +111,7 @@ OpTable make_table() {
 #undef GMSIM_ALL_TYPES
 #undef GMSIM_MATRICES
   table.sum_slots = sum_slots;
+  table.sum_shares = sum_shares;
   return table;
 }
 

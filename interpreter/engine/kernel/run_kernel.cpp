@@ -132,8 +132,13 @@ std::optional<std::uint32_t> run_kernel(const Kernel& kernel, std::span<const In
 }
 
 void sum_records(const double* records, const SlotList* lists, const SignedSlot* slots,
-                 std::uint32_t rows, double* out, Isa isa) {
-  table_of(isa).sum_slots(records, lists, slots, rows, out);
+                 std::uint32_t rows, double* out, double* inner, Isa isa) {
+  table_of(isa).sum_slots(records, lists, slots, rows, out, inner);
+}
+
+void sum_shares(const double* records, const SlotList* lists, const SlotShare* shares,
+                std::uint32_t rows, double* out, Isa isa) {
+  table_of(isa).sum_shares(records, lists, shares, rows, out);
 }
 
 }  // namespace gmsim::engine
