@@ -35,10 +35,12 @@ ShapeSet::~ShapeSet() = default;
 std::optional<std::uint32_t> ShapeSet::classify(std::span<const DartId> nodes, MatchRoles& out) {
   for (FastWay& way : fast_) {
     if (!way.walks.run(world_, nodes, out)) continue;
-    out.walked = way.walks.darts();
+    way.walks.list_dependences(world_, out.walked);
     out.everywhere = false;
+    out.way = static_cast<std::uint8_t>(&way - fast_.data());
     return way.shape;
   }
+  out.way = MatchRoles::kNoWay;
   specialiser_.walker_->record_walks(fast_.size() < kMostFastWays);
   if (!shapes_.empty()) {
     if (!specialiser_.trace(nodes, out)) return std::nullopt;
@@ -54,6 +56,10 @@ std::optional<std::uint32_t> ShapeSet::classify(std::span<const DartId> nodes, M
   shapes_.push_back(std::move(shape));
   add_fast_way(number);
   return number;
+}
+
+bool ShapeSet::follow(std::uint8_t way, std::span<const DartId> nodes, std::vector<Role>& roles) {
+  return fast_[way].walks.find_roles(world_, nodes, roles);
 }
 
 void ShapeSet::add_fast_way(std::uint32_t shape) {

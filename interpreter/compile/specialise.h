@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "compile/dependence.h"
 #include "compile/interaction_body.h"
 #include "compile/ir.h"
 #include "compile/value_source.h"
@@ -87,11 +88,13 @@ struct MatchRoles {
   std::vector<DartId> targets;  ///< the dart of each force target
   std::vector<std::uint32_t> atomic = {};  ///< atomic forces that the match goes through one by one
   std::vector<std::uint32_t> key;
-  /// All darts on whose links its roles and its shape depend, the nodes included, perhaps several
-  /// times; after a failure those on which that depends. Not complete when the match rests on a
-  /// collection of the whole map: `everywhere`.
-  std::vector<DartId> walked = {};
+  /// What its roles and its shape rest on besides the pattern, perhaps several times; after a failure
+  /// what that rests on. Not complete when the match rests on a collection of the whole map:
+  /// `everywhere`.
+  std::vector<Dependence> walked = {};
   bool everywhere = false;
+  std::uint8_t way = kNoWay;  ///< of the shape set, by which it was found
+  static constexpr std::uint8_t kNoWay = 0xff;
 };
 
 /// Why there is no program for a match.
@@ -159,6 +162,9 @@ class ShapeSet {
   /// The number of the match's shape, built when it is new, and its roles (`out.key` is left
   /// alone on the fast path). Empty: see failure(), and `out.walked` still holds.
   std::optional<std::uint32_t> classify(std::span<const DartId> nodes, MatchRoles& out);
+  /// Where a match was found by a way and no link on it has changed since: its roles now. False: orbits
+  /// that were one role are several now, or the other way round.
+  bool follow(std::uint8_t way, std::span<const DartId> nodes, std::vector<Role>& roles);
   [[nodiscard]] const SpecialiseFailure& failure() const { return specialiser_.failure(); }
   [[nodiscard]] std::size_t size() const { return shapes_.size(); }
   [[nodiscard]] const Shape& operator[](std::size_t shape) const { return *shapes_[shape]; }

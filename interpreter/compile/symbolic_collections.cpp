@@ -114,11 +114,17 @@ void SymbolicWalker::trace_quotient(OrbitType outer, OrbitType inner, DartRef at
             [](const DartRef& a, const DartRef& b) { return a.dart < b.dart; });
   trace_orbit(outer, at, all);
   if (!trace_.straight()) return;
+  const gmap::OrbitIndex* index = world_.store.find_index(inner);
+  if (!outer.contains(inner) && index != nullptr)
+    for (std::size_t k = 1; k < all.size(); ++k)
+      for (std::size_t i = 0; i < k; ++i)
+        trace_.test_orbit(*index, all[i].walk, all[k].walk,
+                          index->row(all[i].dart) == index->row(all[k].dart));
   for (DartRef& member : members) {
     member.walk = std::find_if(all.begin(), all.end(), [&](const DartRef& other) {
                     return other.dart == member.dart;
                   })->walk;
-    if (outer.contains(inner)) continue;
+    if (outer.contains(inner) || index != nullptr) continue;
     // Which darts of the outer orbit it stands for is not decided by links within that orbit.
     for (const DartRef& met : traced_orbit(inner, member))
       for (const DartRef& dart : all) trace_.test(met.walk, dart.walk, met.dart == dart.dart);

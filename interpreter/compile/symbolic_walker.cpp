@@ -34,7 +34,8 @@ void SymbolicWalker::start(std::span<const DartId> nodes, ir::Graph* graph) {
   key_.clear();
   draws_.clear();
   atomic_.clear();
-  walked_.assign(nodes.begin(), nodes.end());
+  walked_.clear();
+  for (const DartId node : nodes) depend(node);
   everywhere_ = false;
   positions_.clear();
   differentiated_.clear();

@@ -79,7 +79,7 @@ class SymbolicWalker {
 
   // symbolic_walker.cpp
   /// The match depends on the links of this dart, or of all darts of an orbit.
-  void depend(DartId dart) { walked_.push_back(dart); }
+  void depend(DartId dart) { walked_.push_back({dart, kEverything}); }
   void depend(OrbitType orbit, DartId dart);
   [[nodiscard]] Cell& cell(Slot slot) { return (*frame_)[types::index(slot)]; }
   void decide(std::uint32_t outcome) { key_.push_back(outcome); }
@@ -179,7 +179,7 @@ class SymbolicWalker {
   std::vector<std::uint32_t> key_;
   std::vector<Draw> draws_;
   std::vector<std::uint32_t> atomic_;
-  std::vector<DartId> walked_;
+  std::vector<Dependence> walked_;
   bool everywhere_ = false;
   std::vector<NodeId> positions_;
   std::vector<NodeId> differentiated_;

@@ -15,23 +15,42 @@ constexpr std::uint32_t kMostSteps = 192;
 
 }  // namespace
 
-bool WalkProgram::run(const World& world, std::span<const DartId> node_darts, MatchRoles& out) {
-  darts_.assign(node_darts.begin(), node_darts.end());
-  for (const Step& step : steps)
-    darts_.push_back(world.map.alpha(step.dimension, darts_[step.from]));
-  for (const Test& test : tests)
-    if (!holds(test)) return false;
-  out.roles.clear();
+void WalkProgram::walk(const World& world, std::span<const DartId> node_darts) {
+  darts_.resize(node_darts.size() + steps.size());
+  std::copy(node_darts.begin(), node_darts.end(), darts_.begin());
+  DartId* end = darts_.data() + node_darts.size();
+  for (const Step& step : steps) *end++ = world.map.alpha(step.dimension, darts_[step.from]);
+}
+
+bool WalkProgram::meet_orbits(std::vector<Role>& roles) const {
+  for (const OrbitTest& test : orbit_tests)
+    if ((test.index->row(darts_[test.a]) == test.index->row(darts_[test.b])) != test.same)
+      return false;
+  roles.clear();
   for (const Visit& visit : visits) {
     const Role role{visit.type, darts_[visit.walk], visit.index->row(darts_[visit.walk])};
-    if (visit.role < out.roles.size()) {
-      if (out.roles[visit.role].row != role.row) return false;
+    if (visit.role < roles.size()) {
+      if (roles[visit.role].row != role.row) return false;
       continue;
     }
-    for (const Role& earlier : out.roles)
+    for (const Role& earlier : roles)
       if (earlier.row == role.row && earlier.type == role.type) return false;
-    out.roles.push_back(role);
+    roles.push_back(role);
   }
+  return true;
+}
+
+bool WalkProgram::find_roles(const World& world, std::span<const DartId> node_darts,
+                             std::vector<Role>& roles) {
+  walk(world, node_darts);
+  return meet_orbits(roles);
+}
+
+bool WalkProgram::run(const World& world, std::span<const DartId> node_darts, MatchRoles& out) {
+  walk(world, node_darts);
+  for (const Test& test : tests)
+    if (!holds(test)) return false;
+  if (!meet_orbits(out.roles)) return false;
   for (const Presence& presence : presences)
     if (!world.store.column(presence.embedding).has(out.roles[presence.role].row)) return false;
   out.targets.clear();
@@ -42,10 +61,22 @@ bool WalkProgram::run(const World& world, std::span<const DartId> node_darts, Ma
     world.atomic_forces->list(list.type, darts_[list.walk], out.atomic);
     if (out.atomic.size() != before + list.count) return false;
   }
-  for (const ForceList& list : lists)
-    gmap::for_each_dart(world.map, list.type, darts_[list.walk],
-                        [&](DartId d) { darts_.push_back(d); });
   return true;
+}
+
+void WalkProgram::list_dependences(const World& world, std::vector<Dependence>& out) const {
+  out.clear();
+  // Both ends of a link that changes have changed.
+  for (const Step& step : steps)
+    out.push_back({darts_[step.from], links(OrbitType{step.dimension})});
+  for (const OrbitTest& test : orbit_tests)
+    for (const std::uint32_t walk : {test.a, test.b})
+      out.push_back({darts_[walk], row_of(test.index->type())});
+  for (const Visit& visit : visits) out.push_back({darts_[visit.walk], row_of(visit.type)});
+  for (const ForceList& list : lists)
+    gmap::for_each_dart(world.map, list.type, darts_[list.walk], [&](DartId d) {
+      out.push_back({d, links(list.type) | kForceList});
+    });
 }
 
 bool WalkProgram::holds(const Test& test) const {
@@ -88,6 +119,11 @@ void WalkTrace::test(std::uint32_t a, std::uint32_t b, bool same) {
   if (known(a) && known(b))
     program_.tests.push_back(
         {a, b, same ? WalkProgram::Test::Kind::Same : WalkProgram::Test::Kind::Different});
+}
+
+void WalkTrace::test_orbit(const gmap::OrbitIndex& index, std::uint32_t a, std::uint32_t b,
+                           bool same) {
+  if (known(a) && known(b)) program_.orbit_tests.push_back({&index, a, b, same});
 }
 
 void WalkTrace::older(std::uint32_t a, std::uint32_t b) {

@@ -27,6 +27,12 @@ class WalkProgram {
     std::uint32_t b = 0;
     Kind kind = Kind::Same;  ///< of the darts at the ends of the walks
   };
+  /// That two darts are in one orbit, or are not.
+  struct OrbitTest {
+    const gmap::OrbitIndex* index = nullptr;
+    std::uint32_t a = 0, b = 0;  ///< walks
+    bool same = false;
+  };
   struct Visit {
     OrbitType type;
     std::uint32_t walk = 0;
@@ -42,6 +48,7 @@ class WalkProgram {
   std::uint32_t nodes = 0;  ///< walks 0 .. nodes-1 are the match's nodes, step k is walk nodes + k
   std::vector<Step> steps;
   std::vector<Test> tests;
+  std::vector<OrbitTest> orbit_tests;
   std::vector<Visit> visits;  ///< in order of first appearance, each orbit and walk once
   std::vector<Presence> presences;
   std::vector<std::uint32_t> targets;  ///< walks to the darts of the force targets
@@ -55,10 +62,15 @@ class WalkProgram {
 
   /// Fills roles and targets. False: the match has another shape, or lacks a value.
   bool run(const World& world, std::span<const DartId> node_darts, MatchRoles& out);
-  /// The darts that the last run depended on, its nodes first.
-  [[nodiscard]] const std::vector<DartId>& darts() const { return darts_; }
+  /// What the last run rested on.
+  void list_dependences(const World& world, std::vector<Dependence>& out) const;
+  /// The roles of a match of this shape on whose walks no link has changed. False: another shape.
+  bool find_roles(const World& world, std::span<const DartId> node_darts, std::vector<Role>& roles);
 
  private:
+  void walk(const World& world, std::span<const DartId> node_darts);
+  /// Fills roles; false: an orbit test fails, or orbits coincide otherwise.
+  bool meet_orbits(std::vector<Role>& roles) const;
   [[nodiscard]] bool holds(const Test& test) const;
 
   std::vector<DartId> darts_;
@@ -75,6 +87,7 @@ class WalkTrace {
   std::uint32_t follow(std::uint32_t from, int dimension);
   /// That two darts were found to be the same or not decides.
   void test(std::uint32_t a, std::uint32_t b, bool same);
+  void test_orbit(const gmap::OrbitIndex& index, std::uint32_t a, std::uint32_t b, bool same);
   /// That a dart was found to be older than another decides.
   void older(std::uint32_t a, std::uint32_t b);
   void visit(OrbitType type, std::uint32_t walk, std::uint32_t role,

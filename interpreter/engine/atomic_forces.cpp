@@ -98,10 +98,10 @@ void AtomicForceIndex::insert(const AtomicForce& force) {
 
 void AtomicForceIndex::list(types::OrbitType orbit, DartId dart,
                             std::vector<std::uint32_t>& out) const {
-  std::vector<DartId> darts;
-  gmap::for_each_dart(map_, orbit, dart, [&](DartId d) { darts.push_back(d); });
-  std::sort(darts.begin(), darts.end());
-  for (const DartId d : darts)
+  darts_.clear();
+  gmap::for_each_dart(map_, orbit, dart, [&](DartId d) { darts_.push_back(d); });
+  std::sort(darts_.begin(), darts_.end());
+  for (const DartId d : darts_)
     for (const std::uint32_t number : lists_[types::index(d)])
       if (orbit.contains(forces_[number].orbit)) out.push_back(number);
 }

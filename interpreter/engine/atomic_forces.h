@@ -71,6 +71,7 @@ class AtomicForceIndex final : public compile::AtomicForceList {
   std::vector<std::uint32_t> free_;        // numbers
   RowLists<std::uint32_t> lists_;          // by dart: numbers in canonical order
   std::vector<std::pair<DartId, std::uint32_t>> leaving_;  // of an update: darts and numbers
+  mutable std::vector<DartId> darts_;      // work space
 };
 
 /// force_on(O(a)) for all orbits of a type, of all interactions or of one.

@@ -9,7 +9,6 @@
 
 #include "engine/evaluate_at.h"
 #include "engine/force_context.h"
-#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -63,26 +62,38 @@ Criteria::Diagnostic Criteria::repair(const Effects& effects, const MapDelta& de
   relisted_.clear();
   atomic_.update(*changes, relisted_);
   // Matches that go through single forces depend on the lists of their darts.
-  std::vector<DartId> with_lists = delta.darts;
-  with_lists.insert(with_lists.end(), relisted_.begin(), relisted_.end());
-  support::sort_once(with_lists);
+  with_lists_ = delta.darts;
+  for (const DartId dart : relisted_) with_lists_.push_back({dart, compile::kForceList});
+  merge_by_dart(with_lists_);
+  std::size_t shapes_before = 0, shapes = 0;
   for (const auto& field : fields_) {
-    const std::vector<DartId>& changed =
-        field->reads_forces_one_by_one() ? with_lists : delta.darts;
+    shapes_before += field->shape_count();
+    const auto& changed = field->reads_forces_one_by_one() ? with_lists_ : delta.darts;
     if (Diagnostic error = field->repair(changed, looked_at)) return error;
+    shapes += field->shape_count();
   }
-  // Sums on orbits with a changed link, another list of forces, or forces in other slots.
-  std::vector<DartId> darts = delta.darts;
-  for (const auto& gone : changes->gone) darts.push_back(gone.dart);
-  for (const AtomicForce& force : changes->come) darts.push_back(force.dart);
-  std::erase_if(darts, [&](DartId dart) { return !state_.map.alive(dart); });
+  update_sums(effects, delta);
+  if (shapes > shapes_before) add_readings();
+  return std::nullopt;
+}
+
+/// Sums on orbits with a changed link, another list of forces, or forces in other slots.
+void Criteria::update_sums(const Effects& effects, const MapDelta& delta) {
+  const AtomicForceChanges& changes = *forces_.atomic_changes();
+  const auto add = [&](DartId dart) {
+    if (state_.map.alive(dart)) summed_.push_back(dart);
+  };
   for (const auto& sum : readings_.sums) {
-    const gmap::OrbitRepair* repair = effects.find(sum->orbit());
-    sum->update(atomic_, *state_.store.find_index(sum->orbit()), darts,
+    const OrbitType type = sum->orbit();
+    summed_.clear();
+    for (const auto& [dart, what] : delta.darts)
+      if ((what & (compile::links(type) | compile::row_of(type))) != 0) add(dart);
+    for (const auto& gone : changes.gone) add(gone.dart);
+    for (const AtomicForce& force : changes.come) add(force.dart);
+    const gmap::OrbitRepair* repair = effects.find(type);
+    sum->update(atomic_, *state_.store.find_index(type), summed_,
                 repair == nullptr ? std::span<const Row>{} : std::span<const Row>(repair->removed));
   }
-  add_readings();
-  return std::nullopt;
 }
 
 void Criteria::read_forces_now() {

@@ -41,6 +41,7 @@ class Criteria {
   void list_forces();
   /// Makes the sums that are not there yet, and sees what is read one by one.
   void add_readings();
+  void update_sums(const Effects& effects, const MapDelta& delta);
   void read_forces_now();
   /// Drops what the scene does not allow, keeps the strongest, and adds a request for each node.
   Diagnostic select(const CriterionField& field, std::vector<TearRequest>& requests);
@@ -54,7 +55,10 @@ class Criteria {
   std::vector<std::unique_ptr<CriterionField>> fields_;
   TreeEvaluator evaluator_;
   std::vector<AtomicForce> listed_;
+  // Work space of repairs.
   std::vector<DartId> relisted_;  // darts with other lists of forces than before
+  std::vector<DartId> summed_;    // darts of orbits whose sums are others
+  std::vector<compile::Dependence> with_lists_;
 };
 
 }  // namespace gmsim::engine

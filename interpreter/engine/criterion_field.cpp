@@ -11,13 +11,10 @@
 #include "engine/force_evaluate.h"
 #include "engine/force_report.h"
 #include "gmap/orbit_walk.h"
-#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
 namespace {
-
-constexpr std::uint32_t kFewVacant = 256;
 
 using compile::ValueSource;
 using compile::ValueSources;
@@ -123,8 +120,8 @@ void take_nearer(const NearestMatch& candidate, NearestMatch& nearest) {
 }  // namespace
 
 struct CriterionField::Part {
-  Part(const compile::Shape& shape, const ShapeInputs& inputs, MatchTable::Widths widths)
-      : table(std::move(widths)),
+  Part(const compile::Shape& shape, const ShapeInputs& inputs, const MatchTable& of)
+      : table(of),
         uniform(uniform_threshold(shape)),
         judged(judged_program(shape, inputs)),
         results(values_program(shape, inputs, 2, shape.values.size() - 2)),
@@ -140,7 +137,7 @@ struct CriterionField::Part {
     return ratios;
   }
 
-  MatchTable table;
+  const MatchTable& table;
   const std::optional<double> uniform;  // threshold of all
   ForceKernel judged;                   // value, and threshold unless uniform
   ForceProgram results;
@@ -156,85 +153,55 @@ CriterionField::CriterionField(const ForceContext& context, const compile::World
       number_(number),
       body_(context.state.program.criterion_bodies[pairing.criterion]),
       sources_(sources_of(context, pairing)),
-      finder_(context, context.state.program.criteria[pairing.criterion], world, body_,
-              wanted(body_, pairing.threshold), sources_),
-      watch_(context, context.state.program.criteria[pairing.criterion], body_) {
-  finder_.on_excluded([this](const ForceMatch& match) { watch_.add(match); });
-}
+      matches_(context, context.state.program.criteria[pairing.criterion], world, body_,
+               wanted(body_, pairing.threshold), sources_) {}
 CriterionField::~CriterionField() = default;
 
 CriterionField::Diagnostic CriterionField::rebuild() {
-  for (const auto& part : parts_) part->table.clear();
-  watch_.clear();
-  places_.assign(context_.state.map.dart_end(), {});
-  if (Diagnostic error = finder_.find_all([&](const ForceMatch& match) { add(match); }))
-    return error;
-  watch_.pack();
+  Diagnostic error = matches_.rebuild();
+  add_parts();
+  return error;
+}
+
+void CriterionField::add_parts() {
+  while (parts_.size() < matches_.shape_count()) {
+    const auto number = static_cast<std::uint32_t>(parts_.size());
+    parts_.push_back(std::make_unique<Part>(matches_.shape(number), matches_.inputs(number),
+                                            matches_.table(number)));
+  }
+}
+
+CriterionField::Diagnostic CriterionField::repair(std::span<const compile::Dependence> changed,
+                                                  std::uint64_t& looked_at) {
+  matches_.find_stale(changed, stale_);
+  looked_at += stale_.matches.size();
+  for (const StaleMatch& match : stale_.matches)
+    if (Diagnostic error = repair(match)) return error;
+  matches_.list_orbits(stale_);
+  looked_at += stale_.hooks.size();
+  std::vector<DartId> gone;
+  for (const DartId smallest : stale_.hooks) {
+    // A dart before the hook may have come to match.
+    if (matches_.place(smallest).shape != MatchSet::kNowhere) matches_.remove(smallest, gone);
+    std::optional<DartId> key;
+    if (Diagnostic error = matches_.find_at(smallest, key)) return error;
+  }
+  add_parts();
+  if (matches_.crowded()) matches_.pack();
   return std::nullopt;
 }
 
-void CriterionField::add(const ForceMatch& match) {
-  while (parts_.size() < finder_.shapes().size()) add_part(match);
-  if (places_.size() <= types::index(match.key)) places_.resize(context_.state.map.dart_end());
-  places_[types::index(match.key)] = {match.shape, parts_[match.shape]->table.add(match)};
-  watch_.add(match);
-}
-
-void CriterionField::add_part(const ForceMatch& match) {
-  const auto number = static_cast<std::uint32_t>(parts_.size());
-  const compile::Shape& shape = finder_.shapes()[number];
-  const ShapeInputs& inputs = finder_.inputs(number);
-  const std::size_t rows = shape.roles.size() + match.roles.atomic.size();
-  parts_.push_back(std::make_unique<Part>(
-      shape, inputs,
-      MatchTable::Widths{.roles = static_cast<std::uint32_t>(rows),
-                         .nodes = static_cast<std::uint32_t>(body_.nodes.size()),
-                         .targets = 0,
-                         .own = inputs.own_widths()}));
-  own_stay_ = own_stay_ && inputs.own_stay_in_orbits();
-}
-
-void CriterionField::remove(DartId key) {
-  const Place gone = std::exchange(places_[types::index(key)], Place{});
-  parts_[gone.shape]->table.vacate(gone.row);
-}
-
-/// Takes vacant rows out of a table when they are many.
-void CriterionField::pack(Part& part) {
-  MatchTable& table = part.table;
-  if (table.size() <= table.count() + table.count() / 4 + kFewVacant) return;
-  std::vector<std::uint32_t> rows;
-  for (std::uint32_t row = 0; row < table.size(); ++row) {
-    if (table.vacant(row)) continue;
-    places_[types::index(table.key(row))].row = static_cast<std::uint32_t>(rows.size());
-    rows.push_back(row);
+CriterionField::Diagnostic CriterionField::repair(const StaleMatch& match) {
+  const MatchSet::Place place = matches_.place(match.key);
+  if (place.shape == MatchSet::kNowhere) {
+    stale_.hooks.push_back(match.key);  // there may be a match where a condition stood against it
+    return std::nullopt;
   }
-  table.pack(rows);
-}
-
-CriterionField::Diagnostic CriterionField::repair(std::span<const DartId> changed,
-                                                  std::uint64_t& looked_at) {
-  const gmap::GMap& map = context_.state.map;
-  std::vector<DartId> keys, hooks;
-  watch_.find_stale(changed, keys, hooks);
-  for (const DartId key : keys) {
-    hooks.push_back(key);
-    const Place there = place(key);
-    if (there.shape == kNowhere) continue;
-    hooks.push_back(parts_[there.shape]->table.nodes(there.row)[body_.hook]);
-    remove(key);
-  }
-  for (DartId& hook : hooks)
-    hook = map.alive(hook) ? gmap::smallest_dart(map, body_.orbit, hook) : gmap::kNoDart;
-  support::sort_once(hooks);
-  if (!hooks.empty() && hooks.back() == gmap::kNoDart) hooks.pop_back();
-  looked_at += hooks.size();
-  for (const DartId key : hooks) {
-    if (place(key).shape != kNowhere) remove(key);
-    if (Diagnostic error = finder_.find_at(key, [&](const ForceMatch& match) { add(match); }))
-      return error;
-  }
-  for (const auto& part : parts_) pack(*part);
+  if (Diagnostic error = matches_.read_again(place, match.what, reading_)) return error;
+  if (reading_.again)
+    matches_.remove(match.key, stale_.hooks);
+  else
+    matches_.adopt(place, reading_);
   return std::nullopt;
 }
 

@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "engine/force_kernel.h"
-#include "engine/force_matches.h"
 #include "engine/force_readings.h"
-#include "engine/match_table.h"
-#include "engine/match_watch.h"
+#include "engine/match_set.h"
 #include "engine/tear_requests.h"
 
 namespace gmsim::engine {
@@ -29,10 +27,12 @@ class CriterionField {
 
   /// Finds all matches anew.
   Diagnostic rebuild();
-  /// Looks again at the matches that depend on these darts (as in MapDelta), and counts them.
-  Diagnostic repair(std::span<const DartId> changed, std::uint64_t& looked_at);
+  /// Looks again at the matches that rest on what has changed, and counts them.
+  Diagnostic repair(std::span<const compile::Dependence> changed, std::uint64_t& looked_at);
   /// False: only rebuild() is safe.
-  [[nodiscard]] bool repairable() const { return watch_.complete() && own_stay_; }
+  [[nodiscard]] bool repairable() const { return matches_.repairable(); }
+  /// Shapes that its matches have had.
+  [[nodiscard]] std::size_t shape_count() const { return parts_.size(); }
   /// Makes the sums of forces that the criterion reads, where they are not there yet.
   void add_sums(ForceReadings& readings) const;
   [[nodiscard]] bool reads_forces_one_by_one() const;
@@ -50,21 +50,12 @@ class CriterionField {
   [[nodiscard]] const compile::CriterionBody& body() const { return body_; }
 
  private:
-  /// The table of one shape and its kernels.
+  /// The kernels of one shape.
   struct Part;
-  struct Place {
-    std::uint32_t shape = kNowhere;
-    std::uint32_t row = 0;
-  };
-  static constexpr std::uint32_t kNowhere = 0xffffffffu;
 
-  void add(const ForceMatch& match);
-  void add_part(const ForceMatch& match);
-  [[nodiscard]] Place place(DartId key) const {
-    return types::index(key) < places_.size() ? places_[types::index(key)] : Place{};
-  }
-  void remove(DartId key);
-  void pack(Part& part);
+  void add_parts();
+  /// Looks at one match that is there.
+  Diagnostic repair(const StaleMatch& match);
   Diagnostic judge_part(Part& part, std::uint32_t shape, const ForceMoment& moment,
                         NearestMatch& nearest, std::vector<TearRequest>& requests);
   void note_ratios(const Part& part);
@@ -79,15 +70,15 @@ class CriterionField {
   const std::uint32_t number_;
   const compile::CriterionBody& body_;
   const compile::ValueSources sources_;
-  ForceMatches finder_;
+  MatchSet matches_;
   std::vector<std::unique_ptr<Part>> parts_;  // by shape
-  std::vector<Place> places_;                 // by key
-  MatchWatch watch_;
-  bool own_stay_ = true;  // what matches know themselves changes with the darts they depend on alone
   KernelScratch scratch_;
   NearestMatch nearest_;
   std::vector<double> ratios_;
   bool keep_ratios_ = false;
+  // Work space of repairs.
+  MatchSet::Stale stale_;
+  MatchSet::Reading reading_;
 };
 
 /// What a criterion reads of forces.

@@ -48,6 +48,7 @@ std::uint64_t Effects::visited_darts() const {
 
 void Effects::append(const Effects& later) {
   touched.insert(touched.end(), later.touched.begin(), later.touched.end());
+  changed_links = OrbitType::from_bits(changed_links.bits() | later.changed_links.bits());
   written.insert(written.end(), later.written.begin(), later.written.end());
   for (std::size_t k = 0; k < later.orbits.size(); ++k) {
     const OrbitEvents& events = later.orbits[k];
@@ -65,6 +66,7 @@ void Effects::append(const Effects& later) {
 
 void Effects::clear() {
   touched.clear();
+  changed_links = {};
   written.clear();
   for (OrbitEvents& events : orbits) events.repair.clear();
   applications = dropped = created_darts = removed_darts = matched_rows = written_values = 0;

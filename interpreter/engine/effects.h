@@ -24,6 +24,7 @@ struct WrittenOrbit {
 /// What one or several rewrites changed and what it cost: counters for `--profile`.
 struct Effects {
   std::vector<DartId> touched;       ///< darts with a changed link, created and removed ones too
+  OrbitType changed_links;           ///< dimensions in which links of preserved darts may have changed
   std::vector<WrittenOrbit> written; ///< where a rule assigned a value
   std::vector<OrbitEvents> orbits;   ///< one entry for each orbit type in use that was repaired
   std::uint64_t applications = 0;    ///< rules applied

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/dependence.h"
 #include "engine/model.h"
 #include "engine/state.h"
 #include "support/diagnostic.h"
@@ -103,7 +104,7 @@ class ForceField {
   virtual void share_rows(Row rows, RowWork work, const void* context) { work(context, 0, rows); }
 
   /// Takes over changed topology and values; `changed` as in MapDelta, empty when that is not known.
-  virtual void refresh(std::span<const DartId> changed) = 0;
+  virtual void refresh(std::span<const compile::Dependence> changed) = 0;
   /// Matches that refresh() has looked at again so far, without looking at all.
   [[nodiscard]] virtual std::uint64_t found_again() const { return 0; }
   [[nodiscard]] virtual const std::optional<support::Diagnostic>& error() const = 0;

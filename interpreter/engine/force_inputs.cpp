@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/force_watch.h"
+#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
@@ -32,6 +33,13 @@ ShapeInputs::ShapeInputs(const ForceContext& context, const compile::Shape& shap
   for (std::size_t k = 0; k < widths.size(); ++k)
     origins_.push_back(widths[k] == 0 ? InputOrigin{.width = 0}
                                       : origin(shape, shape.graph.inputs()[k], widths[k]));
+  for (const compile::Draw& draw : draws_) own_roles_.push_back(draw.role);
+  for (const Derived& derived : derived_) own_roles_.push_back(derived.role);
+  for (const InputOrigin& origin : origins_)
+    if (origin.width > 0 && origin.kind == InputOrigin::Kind::Column)
+      column_roles_.push_back(origin.role);
+  support::sort_once(own_roles_);
+  support::sort_once(column_roles_);
 }
 
 InputOrigin ShapeInputs::origin(const compile::Shape& shape, const ir::Input& input,

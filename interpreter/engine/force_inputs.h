@@ -47,6 +47,10 @@ class ShapeInputs {
   [[nodiscard]] std::uint32_t own_count() const { return own_count_; }
   /// The same value by value: how many numbers each has.
   [[nodiscard]] std::vector<std::uint32_t> own_widths() const;
+  /// The roles of which they are, ascending.
+  [[nodiscard]] const std::vector<std::uint32_t>& own_roles() const { return own_roles_; }
+  /// The roles of which stored values are read, ascending.
+  [[nodiscard]] const std::vector<std::uint32_t>& column_roles() const { return column_roles_; }
   /// Do all of them change only when an orbit of a role holds a changed dart?
   [[nodiscard]] bool own_stay_in_orbits() const;
   /// Appends them for the match with these roles.
@@ -71,6 +75,7 @@ class ShapeInputs {
   std::vector<Derived> derived_;       // and what follows
   std::vector<InputOrigin> origins_;
   std::uint32_t own_count_ = 0;
+  std::vector<std::uint32_t> own_roles_, column_roles_;
 };
 
 }  // namespace gmsim::engine

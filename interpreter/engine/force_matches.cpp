@@ -109,8 +109,8 @@ std::optional<support::Diagnostic> ForceMatches::enter(const Visit& visit) {
     match_.nodes.push_back(found_.dart(0, c));
   const std::optional<std::uint32_t> shape = shapes_.classify(match_.nodes, match_.roles);
   if (pattern_.match.positions > 0)  // its labels compare these
-    match_.roles.walked.insert(match_.roles.walked.end(), found_.darts.begin(),
-                               found_.darts.end());
+    for (const DartId dart : found_.darts)
+      match_.roles.walked.push_back({dart, compile::kEverything});
   if (!shape) {
     if (!shapes_.failure().not_here) return shapes_.failure().diagnostic;
     match_.roles.roles.clear();

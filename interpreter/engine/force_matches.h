@@ -45,6 +45,13 @@ class ForceMatches {
   std::optional<support::Diagnostic> find_at(DartId dart, const Visit& visit);
 
   [[nodiscard]] const compile::ShapeSet& shapes() const { return shapes_; }
+  [[nodiscard]] compile::ShapeSet& shapes() { return shapes_; }
+  /// ShapeInputs::read_own.
+  std::optional<support::Diagnostic> read_own(std::uint32_t shape,
+                                              std::span<const compile::Role> roles,
+                                              std::vector<double>& out) {
+    return inputs_[shape]->read_own(reader_, roles, out);
+  }
   [[nodiscard]] const ShapeInputs& inputs(std::uint32_t shape) const { return *inputs_[shape]; }
 
  private:

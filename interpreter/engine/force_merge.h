@@ -44,6 +44,10 @@ class MergedTable {
   [[nodiscard]] std::uint32_t group_of(DartId key) const;
   /// Appends the keys of a group's matches.
   void members(std::uint32_t row, std::vector<DartId>& keys) const;
+  /// All its matches are between other vertices now.
+  void set_ends(std::uint32_t row, std::array<Row, 2> ends) {
+    for (std::uint32_t k = 0; k < 2; ++k) table_.set_row(row, k, ends[k]);
+  }
   /// Takes a group out.
   void remove(std::uint32_t row);
   /// Groups these rows of the table of matches; new groups are appended.

@@ -42,7 +42,12 @@ void ForcePass::lay_out(Row vertices, std::uint32_t chunks) {
     blocks_[piece.block].first_slots[piece.begin / kPiece] = piece.first_slot;
   forces_.resize(schedule_.slots);
   make_sums(vertices);
-  plan_last_sums();
+  last_.clear();
+  plan_last_sums(schedule_.last);
+  laid_out_ = vertices;
+  leaders_.clear();
+  followers_.clear();
+  planned_ = 0;
   late_.clear();
   late_stale_ = crowded_ = followed_ = false;
   changes_ = 0;
@@ -122,17 +127,48 @@ void ForcePass::make_sums(Row vertices) {
   sums_.rebuild(vertices, [&](const auto& visit) { each_term(visit); });
 }
 
-void ForcePass::plan_last_sums() {
-  last_.clear();
-  for (const RowRange rows : schedule_.last)
+void ForcePass::plan_last_sums(std::span<const RowRange> ranges) {
+  for (const RowRange rows : ranges)
     for (Row begin = rows.begin; begin < rows.end; begin += kVerticesPerTask)
       last_.push_back({begin, std::min(rows.end, begin + kVerticesPerTask)});
 }
 
+// ---- vertices that came later -------------------------------------------------------------------
+
 void ForcePass::grow(Row vertices) {
   if (vertices <= sums_.vertices()) return;
-  last_.push_back({sums_.vertices(), vertices});
   sums_.grow(vertices);
+  leaders_.resize(vertices - laid_out_, gmap::kNoRow);
+}
+
+bool ForcePass::summed_last(Row vertex) const {
+  return std::any_of(schedule_.last.begin(), schedule_.last.end(), [&](const RowRange& rows) {
+    return rows.begin <= vertex && vertex < rows.end;
+  });
+}
+
+void ForcePass::plan_new_vertices() {
+  const auto before = static_cast<std::ptrdiff_t>(followers_.size());
+  std::vector<RowRange> last;
+  for (; planned_ < leaders_.size(); ++planned_) {
+    const Row vertex = laid_out_ + static_cast<Row>(planned_), leader = leaders_[planned_];
+    if (leader != gmap::kNoRow && !summed_last(leader)) {
+      followers_.push_back({leader, vertex});
+    } else if (!last.empty() && last.back().end == vertex) {
+      ++last.back().end;
+    } else {
+      last.push_back({vertex, vertex + 1});
+    }
+  }
+  plan_last_sums(last);
+  std::sort(followers_.begin() + before, followers_.end());
+  std::inplace_merge(followers_.begin(), followers_.begin() + before, followers_.end());
+}
+
+void ForcePass::sum_followers(RowRange leaders, const ForceSums::Totals& out) const {
+  auto next = std::lower_bound(followers_.begin(), followers_.end(), Follower{leaders.begin, 0});
+  for (; next != followers_.end() && next->leader < leaders.end; ++next)
+    sums_.sum(forces_.data(), next->vertex, next->vertex + 1, out);
 }
 
 // ---- single rows --------------------------------------------------------------------------------
@@ -160,6 +196,33 @@ void ForcePass::unlink(const InteractionTables& of, std::uint32_t shape, std::ui
     relisted_.push_back(block.vertex(force, row));
   }
   crowded_ = crowded_ || ++changes_ > room_;
+}
+
+bool ForcePass::can_move(const InteractionTables& of, std::uint32_t shape, std::uint32_t row,
+                         Row from, Row to) const {
+  if (row >= blocks_[block_of(of, shape)].laid_out) return true;  // has a slot of its own
+  if (to < laid_out_) return to == leader(from);
+  const Row there = leader(to);
+  return there == gmap::kNoRow ? to - laid_out_ >= planned_ : there == leader(from);
+}
+
+void ForcePass::move(const InteractionTables& of, std::uint32_t shape, std::uint32_t row,
+                     std::uint32_t role, Row from, Row to) {
+  const Block& block = blocks_[block_of(of, shape)];
+  const auto force = std::find(block.roles.begin(), block.roles.end(), role);
+  if (force == block.roles.end()) return;  // is only read
+  if (row < block.laid_out && to >= laid_out_) leaders_[to - laid_out_] = leader(from);
+  sums_.move(from, to,
+             block.order(static_cast<std::uint32_t>(force - block.roles.begin()), row));
+  relisted_.insert(relisted_.end(), {from, to});
+  crowded_ = crowded_ || ++changes_ > room_;
+}
+
+void ForcePass::rerun(const InteractionTables& of, std::uint32_t shape, std::uint32_t row) {
+  const auto number = static_cast<std::uint32_t>(block_of(of, shape));
+  for (std::uint32_t force = 0; force < blocks_[number].roles.size(); ++force)
+    relisted_.push_back(blocks_[number].vertex(force, row));
+  linked_.push_back({number, row});
 }
 
 void ForcePass::make_late_pieces() {
@@ -217,6 +280,7 @@ void ForcePass::run_chunk(const ForceChunk& chunk, ForceWorkers::Space& space,
     const ForcePiece& piece = schedule_.pieces[p];
     if (!run_piece(piece, late + p, space)) return;
     sums_.sum(forces_.data(), piece.complete.begin, piece.complete.end, out);
+    if (!followers_.empty()) sum_followers(piece.complete, out);
   }
 }
 
@@ -226,6 +290,7 @@ std::optional<ForcePass::Failure> ForcePass::run(PassKernels kernels, const Forc
                                                  const ForceSums::Totals& out) {
   for (ForceWorkers::Space& space : workers.spaces) space.failed = {};
   if (late_stale_) make_late_pieces();
+  if (planned_ < leaders_.size()) plan_new_vertices();
   followed_ = kernels == PassKernels::Forces;
   linked_.clear();
   relisted_.clear();

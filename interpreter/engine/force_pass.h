@@ -61,6 +61,15 @@ class ForcePass {
   void link(const InteractionTables& of, std::uint32_t shape, std::uint32_t row);
   /// A row that is going to be vacated.
   void unlink(const InteractionTables& of, std::uint32_t shape, std::uint32_t row);
+  // A force whose match stays, but pushes another vertex than before.
+  /// Will its slot still hold it when that vertex is summed? If not, the row has to be taken out.
+  [[nodiscard]] bool can_move(const InteractionTables& of, std::uint32_t shape, std::uint32_t row,
+                              Row from, Row to) const;
+  /// `role`: as in the table.
+  void move(const InteractionTables& of, std::uint32_t shape, std::uint32_t row,
+            std::uint32_t role, Row from, Row to);
+  /// A row that reads something else than before.
+  void rerun(const InteractionTables& of, std::uint32_t shape, std::uint32_t row);
   /// True when it should be laid out anew.
   [[nodiscard]] bool crowded() const { return crowded_; }
 
@@ -135,7 +144,14 @@ class ForcePass {
   template <typename Visit>
   void each_term(const Visit& visit) const;
   void make_late_pieces();
-  void plan_last_sums();
+  void plan_last_sums(std::span<const RowRange> ranges);
+  /// Says when the vertices that came after the layout are summed.
+  void plan_new_vertices();
+  [[nodiscard]] Row leader(Row vertex) const {
+    return vertex < laid_out_ ? vertex : leaders_[vertex - laid_out_];
+  }
+  [[nodiscard]] bool summed_last(Row vertex) const;
+  void sum_followers(RowRange leaders, const ForceSums::Totals& out) const;
   void bind(PassKernels kernels, const ForceMoment& moment, const gmap::EmbeddingStore& store);
   /// `number`: in the order of all pieces, late ones first.
   bool run_piece(const ForcePiece& piece, std::uint32_t number, ForceWorkers::Space& space);
@@ -149,6 +165,7 @@ class ForcePass {
     std::uint32_t block = 0, row = 0;
     auto operator<=>(const RowAt&) const = default;
   };
+  [[nodiscard]] std::uint32_t first_slot(const RowAt& at) const;
   bool run_linked(ForceWorkers::Space& space);
   void sum_from_scratch(ForceWorkers::Space& space, const ForceSums::Totals& out);
   [[nodiscard]] RowAt row_of(ForceOrder order) const;
@@ -160,6 +177,16 @@ class ForcePass {
   std::vector<VertexRecord> forces_;       // by slot
   ForceSchedule schedule_;
   std::vector<RowRange> last_;             // schedule_.last and later vertices, in parts to share
+  // A vertex that split off from another gets forces from slots that are used again once that one, its
+  // leader, is summed: it is summed with it.
+  struct Follower {
+    Row leader = 0, vertex = 0;
+    auto operator<=>(const Follower&) const = default;
+  };
+  Row laid_out_ = 0;                       // vertices
+  std::vector<Row> leaders_;               // of vertices that came later; kNoRow: none
+  std::size_t planned_ = 0;                // of these
+  std::vector<Follower> followers_;        // planned ones that are not summed last, ascending
   std::vector<ForcePiece> late_;           // rows that came after the layout
   bool late_stale_ = false;
   std::uint32_t changes_ = 0, room_ = 0;   // rows that came or went, and how many may

@@ -10,16 +10,13 @@ namespace gmsim::engine {
 
 namespace {
 
-/// visit(begin, end) of each run of rows that follow each other in one block and in one piece of
-/// `piece` rows from `first` on.
-template <typename RowAt, typename First, typename Visit>
-void each_run(const std::vector<RowAt>& rows, std::uint32_t piece, const First& first,
-              const Visit& visit) {
+/// visit(first, count) of each run of rows that follow each other in one block and, as `piece` tells
+/// them apart, in one piece.
+template <typename RowAt, typename Piece, typename Visit>
+void each_run(const std::vector<RowAt>& rows, const Piece& piece, const Visit& visit) {
   for (std::size_t i = 0, j = 0; i < rows.size(); i = j) {
-    const std::uint32_t start = first(rows[i].block);
-    const auto number = [&](const RowAt& at) { return (at.row - start) / piece; };
     for (j = i + 1; j < rows.size() && rows[j].block == rows[i].block &&
-                    rows[j].row == rows[j - 1].row + 1 && number(rows[j]) == number(rows[i]);)
+                    rows[j].row == rows[j - 1].row + 1 && piece(rows[j]) == piece(rows[i]);)
       ++j;
     visit(rows[i], static_cast<std::uint32_t>(j - i));
   }
@@ -48,21 +45,29 @@ std::optional<ForcePass::Failure> ForcePass::run_changes(const ForceMoment& mome
   return first_failure(workers);
 }
 
-/// All forces stay in their slots, so only those of new matches are missing.
+/// Of the row's first output.
+std::uint32_t ForcePass::first_slot(const RowAt& at) const {
+  const Block& block = blocks_[at.block];
+  if (at.row < block.laid_out) return block.first_slots[at.row / kPiece] + at.row % kPiece;
+  const std::uint32_t late = at.row - block.laid_out;
+  return block.late_slots[late / kLatePiece] + late % kLatePiece;
+}
+
+/// All forces stay in their slots, so only those of new matches and of such that read something else
+/// are missing.
 bool ForcePass::run_linked(ForceWorkers::Space& space) {
   bool good = true;
   std::uint32_t number = 0;
-  each_run(
-      linked_, kLatePiece, [&](std::uint32_t block) { return blocks_[block].laid_out; },
-      [&](const RowAt& at, std::uint32_t count) {
-        const Block& block = blocks_[at.block];
-        const std::uint32_t late = at.row - block.laid_out;
-        const ForcePiece piece{.block = at.block, .begin = at.row, .end = at.row + count,
-                               .slots = 0, .pushed = {},
-                               .first_slot = block.late_slots[late / kLatePiece] + late % kLatePiece,
-                               .complete = {}};
-        good = run_piece(piece, number++, space) && good;
-      });
+  const auto piece_of = [&](const RowAt& at) {
+    const std::uint32_t laid_out = blocks_[at.block].laid_out;
+    return at.row < laid_out ? std::pair(false, at.row / kPiece)
+                             : std::pair(true, (at.row - laid_out) / kLatePiece);
+  };
+  each_run(linked_, piece_of, [&](const RowAt& at, std::uint32_t count) {
+    const ForcePiece piece{.block = at.block, .begin = at.row, .end = at.row + count, .slots = 0,
+                           .pushed = {}, .first_slot = first_slot(at), .complete = {}};
+    good = run_piece(piece, number++, space) && good;
+  });
   return good;
 }
 
@@ -101,7 +106,7 @@ void ForcePass::sum_from_scratch(ForceWorkers::Space& space, const ForceSums::To
       strides.push_back(count);
     }
   };
-  each_run(rows, kPiece, [](std::uint32_t) { return 0u; }, run);
+  each_run(rows, [](const RowAt& at) { return at.row / kPiece; }, run);
   if (space.failed.piece != FailedMatch{}.piece) return;
   std::vector<SignedSlot> slots;
   for (const Row vertex : relisted_) {

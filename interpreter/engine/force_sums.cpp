@@ -45,16 +45,28 @@ void ForceSums::insert(const Term& term) {
   if (internal(term.order)) ++list.inner;
 }
 
-void ForceSums::erase(Row vertex, ForceOrder order) {
-  SlotList& list = lists_[vertex];
+std::size_t ForceSums::find(Row vertex, ForceOrder order) const {
+  const SlotList& list = lists_[vertex];
   const auto begin = orders_.begin() + list.begin, end = begin + list.count;
   const auto at = std::lower_bound(begin, end, order);
   GMSIM_CHECK(at != end && *at == order, "a force that is taken away was not there");
-  const auto slot = slots_.begin() + (at - orders_.begin());
-  std::copy(slot + 1, slots_.begin() + list.begin + list.count, slot);
-  std::copy(at + 1, end, at);
+  return static_cast<std::size_t>(at - orders_.begin());
+}
+
+void ForceSums::erase(Row vertex, ForceOrder order) {
+  SlotList& list = lists_[vertex];
+  const std::size_t at = find(vertex, order);
+  const std::size_t after = list.begin + list.count - at - 1;
+  std::copy_n(slots_.begin() + at + 1, after, slots_.begin() + at);
+  std::copy_n(orders_.begin() + at + 1, after, orders_.begin() + at);
   --list.count;
   if (internal(order)) --list.inner;
+}
+
+void ForceSums::move(Row from, Row to, ForceOrder order) {
+  const SignedSlot slot = slots_[find(from, order)];
+  erase(from, order);
+  insert({to, order, slot});
 }
 
 namespace {

@@ -63,6 +63,8 @@ class ForceSums {
   void grow(Row vertices);
   void insert(const Term& term);
   void erase(Row vertex, ForceOrder order);
+  /// The force goes to another vertex.
+  void move(Row from, Row to, ForceOrder order);
 
   /// out.all[v] := sum of the forces on vertex v, for begin <= v < end.
   void sum(const VertexRecord* forces, Row begin, Row end, const Totals& out) const;
@@ -77,6 +79,8 @@ class ForceSums {
 
  private:
   [[nodiscard]] bool internal(ForceOrder order) const { return order < loads_from_; }
+  /// Where the force is among all orders.
+  [[nodiscard]] std::size_t find(Row vertex, ForceOrder order) const;
   void make_room();
   void extend(SlotList& list);
 

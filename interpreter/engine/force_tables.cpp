@@ -27,82 +27,42 @@ InteractionTables::InteractionTables(const ForceContext& context, std::uint32_t 
     : context_(context),
       number_(number),
       merge_(merge),
-      finder_(context, number),
-      watch_(context, context.pattern(number), context.body(number)) {
-  finder_.on_excluded([this](const ForceMatch& match) { watch_.add(match); });
-}
+      matches_(context, context.pattern(number), context.world, context.body(number),
+               compile::wanted_forces(context.body(number), true), context.sources) {}
 
 std::optional<support::Diagnostic> InteractionTables::rebuild() {
-  for (const auto& table : tables_) table->clear();
-  watch_.clear();
-  places_.assign(context_.state.map.dart_end(), {});
-  if (auto error = finder_.find_all([&](const ForceMatch& match) { add(match); })) return error;
-  watch_.pack();
+  if (auto error = matches_.rebuild()) return error;
+  add_kernels();
   merge();
   return std::nullopt;
 }
 
+std::optional<support::Diagnostic> InteractionTables::find_at(DartId dart,
+                                                              std::optional<DartId>& key) {
+  auto error = matches_.find_at(dart, key);
+  add_kernels();
+  return error;
+}
+
 void InteractionTables::merge() {
-  for (std::size_t shape = 0; shape < tables_.size(); ++shape)
-    if (merged_[shape]) merged_[shape]->rebuild(*tables_[shape], context_.state.store);
+  for (std::size_t shape = 0; shape < merged_.size(); ++shape)
+    if (merged_[shape]) merged_[shape]->rebuild(table(shape), context_.state.store);
 }
 
 void InteractionTables::pack() {
-  std::vector<std::vector<std::uint32_t>> rows(tables_.size());
-  for (Place& place : places_) {
-    if (place.shape == kNowhere) continue;
-    rows[place.shape].push_back(place.row);
-    place.row = static_cast<std::uint32_t>(rows[place.shape].size()) - 1;
-  }
-  for (std::size_t shape = 0; shape < tables_.size(); ++shape) tables_[shape]->pack(rows[shape]);
+  matches_.pack();
   merge();
 }
 
-void InteractionTables::add(const ForceMatch& match) {
-  while (tables_.size() <= match.shape) add_shape();
-  if (places_.size() <= types::index(match.key)) places_.resize(context_.state.map.dart_end());
-  places_[types::index(match.key)] = {match.shape, tables_[match.shape]->add(match)};
-  watch_.add(match);
-}
-
-std::optional<support::Diagnostic> InteractionTables::find_at(DartId dart,
-                                                              std::optional<DartId>& key) {
-  key.reset();
-  return finder_.find_at(dart, [&](const ForceMatch& match) {
-    add(match);
-    key = match.key;
-  });
-}
-
-DartId InteractionTables::hook(Place place) const {
-  return tables_[place.shape]->nodes(place.row)[body().hook];
-}
-
-void InteractionTables::remove(DartId key) {
-  const Place place = std::exchange(places_[types::index(key)], Place{});
-  tables_[place.shape]->vacate(place.row);
-}
-
-void InteractionTables::add_shape() {
-  const auto number = static_cast<std::uint32_t>(tables_.size());
-  const compile::Shape& shape = finder_.shapes()[number];
-  const ShapeInputs& inputs = finder_.inputs(number);
-  tables_.push_back(std::make_unique<MatchTable>(MatchTable::Widths{
-      .roles = static_cast<std::uint32_t>(shape.roles.size()),
-      .nodes = static_cast<std::uint32_t>(body().nodes.size()),
-      .targets = static_cast<std::uint32_t>(shape.targets.size()),
-      .own = inputs.own_widths()}));
-  kernels_.push_back(std::make_unique<ShapeKernels>(shape, inputs));
-  own_stay_ = own_stay_ && inputs.own_stay_in_orbits();
-  std::optional<MergePlan> plan;
-  if (merge_) plan = plan_merge(shape, kernels_.back()->program());
-  merged_.push_back(plan ? std::make_unique<MergedTable>(std::move(*plan)) : nullptr);
-}
-
-std::uint32_t InteractionTables::match_count() const {
-  std::uint32_t count = 0;
-  for (const auto& table : tables_) count += table->count();
-  return count;
+void InteractionTables::add_kernels() {
+  while (kernels_.size() < matches_.shape_count()) {
+    const auto number = static_cast<std::uint32_t>(kernels_.size());
+    const compile::Shape& shape = matches_.shape(number);
+    kernels_.push_back(std::make_unique<ShapeKernels>(shape, matches_.inputs(number)));
+    std::optional<MergePlan> plan;
+    if (merge_) plan = plan_merge(shape, kernels_.back()->program());
+    merged_.push_back(plan ? std::make_unique<MergedTable>(std::move(*plan)) : nullptr);
+  }
 }
 
 }  // namespace gmsim::engine

@@ -7,29 +7,30 @@ namespace gmsim::engine {
 
 void DartWatch::clear() { *this = DartWatch(); }
 
-void DartWatch::add(gmap::DartId dart, gmap::DartId key) {
+void DartWatch::add(gmap::DartId dart, const Entry& entry) {
   if (!packed_) {
-    unpacked_.emplace_back(dart, key);
+    unpacked_.emplace_back(dart, entry);
     return;
   }
   const std::size_t d = types::index(dart);
-  if (d + 1 < begin_.size())
-    for (std::uint32_t k = begin_[d]; k < begin_[d + 1]; ++k)
-      if (keys_[k] == key) return;
-  std::vector<gmap::DartId>& list = more_[dart];
-  if (std::find(list.begin(), list.end(), key) == list.end()) list.push_back(key);
+  lists_.grow(d + 1);
+  for (Entry& there : lists_.entries(d)) {
+    if (there.key != entry.key) continue;
+    there.what |= entry.what;
+    return;
+  }
+  lists_.append(d, entry);
 }
 
 void DartWatch::pack() {
   packed_ = true;
   std::size_t darts = 0;
-  for (const auto& [dart, key] : unpacked_) darts = std::max(darts, types::index(dart) + std::size_t{1});
-  begin_.assign(darts + 1, 0);
-  for (const auto& [dart, key] : unpacked_) ++begin_[types::index(dart) + std::size_t{1}];
-  for (std::size_t d = 0; d < darts; ++d) begin_[d + 1] += begin_[d];
-  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  keys_.resize(unpacked_.size());
-  for (const auto& [dart, key] : unpacked_) keys_[next[types::index(dart)]++] = key;
+  for (const auto& [dart, entry] : unpacked_)
+    darts = std::max(darts, types::index(dart) + std::size_t{1});
+  std::vector<std::uint32_t> counts(darts, 0);
+  for (const auto& [dart, entry] : unpacked_) ++counts[types::index(dart)];
+  lists_.rebuild(darts, [&](std::size_t dart) { return counts[dart]; });
+  for (const auto& [dart, entry] : unpacked_) lists_.append(types::index(dart), entry);
   unpacked_ = {};
 }
 

@@ -1,42 +1,40 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "compile/dependence.h"
+#include "engine/row_lists.h"
 #include "gmap/embedding_schema.h"
 #include "gmap/gmap.h"
 
 namespace gmsim::engine {
 
-/// Which matches of an item depend on which darts. Matches that are gone may still be named, so
-/// whoever asks has to look again; none is ever left out.
+/// Which matches of an item rest on which darts, and on what of them. Matches that are gone may still
+/// be named, so whoever asks has to look again; none is ever left out.
 class DartWatch {
  public:
+  struct Entry {
+    gmap::DartId key = gmap::kNoDart;
+    compile::Aspects what = 0;
+  };
+
   void clear();
-  void add(gmap::DartId dart, gmap::DartId key);
+  void add(gmap::DartId dart, const Entry& entry);
   /// To be called when the first matches have all been added: packs the lists.
   void pack();
-  /// visit(key), each at least once.
-  template <typename Visit>
-  void for_each(gmap::DartId dart, const Visit& visit) const {
+  [[nodiscard]] std::span<const Entry> at(gmap::DartId dart) const {
     const std::size_t d = types::index(dart);
-    if (d + 1 < begin_.size())
-      for (std::uint32_t k = begin_[d]; k < begin_[d + 1]; ++k) visit(keys_[k]);
-    if (const auto more = more_.find(dart); more != more_.end())
-      for (const gmap::DartId key : more->second) visit(key);
+    return d < lists_.rows() ? lists_[d] : std::span<const Entry>{};
   }
 
  private:
   bool packed_ = false;
-  std::vector<std::pair<gmap::DartId, gmap::DartId>> unpacked_;
-  std::vector<std::uint32_t> begin_;  // by dart, into keys_
-  std::vector<gmap::DartId> keys_;
-  std::unordered_map<gmap::DartId, std::vector<gmap::DartId>> more_;  // added after packing
+  std::vector<std::pair<gmap::DartId, Entry>> unpacked_;
+  RowLists<Entry> lists_;  // by dart
 };
 
 /// Is a derived value, at any orbit, decided by the links within this orbit and by stored values on

@@ -50,7 +50,7 @@ bool KernelForces::rebuild() {
   return true;
 }
 
-void KernelForces::refresh(std::span<const DartId> changed) {
+void KernelForces::refresh(std::span<const compile::Dependence> changed) {
   listed_anew_ = false;
   if (changed.empty() || error_ || !repair(changed)) rebuild();
   each_pass([](ForcePass& pass) { pass.unbind(); });

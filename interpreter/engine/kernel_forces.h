@@ -55,7 +55,7 @@ class KernelForces final : public ForceField {
   }
   [[nodiscard]] bool reads_time() const override;
   void share_rows(Row rows, RowWork work, const void* context) override;
-  void refresh(std::span<const DartId> changed) override;
+  void refresh(std::span<const compile::Dependence> changed) override;
   [[nodiscard]] std::uint64_t found_again() const override { return found_again_; }
   [[nodiscard]] const ForceContext* context() const override { return &context_; }
   void list_atomic(std::vector<AtomicForce>& out) const override;
@@ -73,7 +73,10 @@ class KernelForces final : public ForceField {
   /// What is left to do for one interaction while its matches are repaired.
   struct Repair {
     InteractionTables* of = nullptr;
+    MatchSet::Stale stale;
+    std::vector<std::vector<DartId>> moved;    ///< by shape: keys of merged matches with other ends
     std::vector<std::vector<DartId>> regroup;  ///< by shape: keys of matches to be merged again
+    void begin(InteractionTables& interaction);
   };
 
   [[nodiscard]] bool reads(InputOrigin::Kind kind) const;
@@ -90,13 +93,19 @@ class KernelForces final : public ForceField {
   // but the passes have to be laid out again.
 
   /// False when an interaction cannot be repaired.
-  bool repair(std::span<const DartId> changed);
-  void repair(InteractionTables& of, std::span<const DartId> changed);
-  void find_again(Repair& repair, std::vector<DartId>& hooks);
+  bool repair(std::span<const compile::Dependence> changed);
+  void repair(InteractionTables& of, std::span<const compile::Dependence> changed);
+  void look_at(Repair& repair, const StaleMatch& stale);
+  /// A match that keeps its shape, as `reading_` says. False: its row cannot stay.
+  bool follow(Repair& repair, DartId key);
+  void find_again(Repair& repair);
   void take_out(Repair& repair, DartId key);
   void put_in(Repair& repair, DartId key);
   void dissolve(Repair& repair, std::uint32_t shape, std::uint32_t group);
   void dissolve_between(Repair& repair, std::uint32_t shape, std::array<Row, 2> ends);
+  void move_groups(Repair& repair);
+  bool move_group(const InteractionTables& of, MergedTable& merged, std::uint32_t shape,
+                  std::uint32_t group);
   void merge_again(Repair& repair);
   // What becomes of the list of atomic forces (kernel_forces_atomic.cpp).
   void note_gone(const InteractionTables& of, InteractionTables::Place place);
@@ -133,7 +142,11 @@ class KernelForces final : public ForceField {
   AtomicForceChanges changes_;            // of the last refresh, unless all are listed anew
   bool listed_anew_ = true;
   std::vector<std::pair<std::uint32_t, DartId>> placed_;  // interaction and key of matches put in
-  std::vector<std::uint32_t> between_;    // work space
+  // Work space of repairs.
+  Repair repair_;
+  MatchSet::Reading reading_;
+  std::vector<DartId> members_;
+  std::vector<std::uint32_t> between_;
   std::uint64_t found_again_ = 0;
   bool stale_ = false;
   ThreadProbe probe_;

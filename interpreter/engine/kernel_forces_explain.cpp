@@ -55,8 +55,8 @@ std::string KernelForces::explain() const {
   std::string text = "forces\n";
   for (const auto& of : interactions_) {
     const char* remark = of->match_count() == 0 ? ": holds nowhere, not computed"
-                         : of->repairable()     ? ""
-                                                : ": found anew after every change of the map";
+                         : of->matches().repairable() ? ""
+                                                      : ": found anew after every change of the map";
     text += fmt::format("  {} on {}{}\n", of->body().name, types::to_string(of->body().orbit), remark);
     if (of->match_count() == 0) continue;
     const auto& bindings = context_.active[of->number()].parameters;

@@ -16,7 +16,8 @@ MatchTable::OwnColumn MatchTable::own(std::uint32_t offset) const {
 }
 
 std::size_t MatchTable::bytes_per_match() const {
-  std::size_t bytes = sizeof(DartId) * (1 + widths_.nodes + widths_.targets) + sizeof(Row) * widths_.roles;
+  std::size_t bytes = sizeof(DartId) * (1 + widths_.nodes + widths_.targets) + 1 +
+                      sizeof(Row) * widths_.roles;
   for (const std::uint32_t width : widths_.own) bytes += sizeof(double) * width;
   return bytes;
 }
@@ -31,6 +32,7 @@ void MatchTable::add_own(std::span<const double> numbers) {
 
 std::uint32_t MatchTable::add(const ForceMatch& match) {
   keys_.push_back(match.key);
+  ways_.push_back(match.roles.way);
   const std::size_t orbits = match.roles.roles.size();
   for (std::uint32_t role = 0; role < widths_.roles; ++role)
     rows_[role].push_back(role < orbits ? match.roles.roles[role].row
@@ -43,9 +45,18 @@ std::uint32_t MatchTable::add(const ForceMatch& match) {
 
 std::uint32_t MatchTable::add(DartId key, std::span<const Row> rows, std::span<const double> own) {
   keys_.push_back(key);
+  ways_.push_back(compile::MatchRoles::kNoWay);
   for (std::uint32_t role = 0; role < widths_.roles; ++role) rows_[role].push_back(rows[role]);
   add_own(own);
   return size() - 1;
+}
+
+void MatchTable::set_own(std::uint32_t row, std::span<const double> own) {
+  for (std::size_t value = 0; value < own_.size(); ++value) {
+    const std::uint32_t width = widths_.own[value];
+    std::copy_n(own.begin(), width, own_[value].begin() + std::ptrdiff_t{width} * row);
+    own = own.subspan(width);
+  }
 }
 
 void MatchTable::vacate(std::uint32_t row) {
@@ -72,6 +83,7 @@ void keep(std::vector<Entry>& column, std::span<const std::uint32_t> rows, std::
 
 void MatchTable::pack(std::span<const std::uint32_t> rows) {
   keep(keys_, rows, 1);
+  keep(ways_, rows, 1);
   for (auto& column : rows_) keep(column, rows, 1);
   for (std::size_t k = 0; k < own_.size(); ++k) keep(own_[k], rows, widths_.own[k]);
   keep(nodes_, rows, widths_.nodes);

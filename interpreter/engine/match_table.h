@@ -41,6 +41,8 @@ class MatchTable {
   [[nodiscard]] std::span<const DartId> targets(std::uint32_t row) const {
     return {targets_.data() + std::size_t{row} * widths_.targets, widths_.targets};
   }
+  /// MatchRoles::way of a match.
+  [[nodiscard]] std::uint8_t way(std::uint32_t row) const { return ways_[row]; }
   [[nodiscard]] std::uint32_t role_count() const { return widths_.roles; }
   /// Bytes that the table holds for one match.
   [[nodiscard]] std::size_t bytes_per_match() const;
@@ -49,6 +51,9 @@ class MatchTable {
   std::uint32_t add(const ForceMatch& match);
   /// The same from its columns alone.
   std::uint32_t add(DartId key, std::span<const Row> rows, std::span<const double> own);
+  /// A match reads another orbit, or knows other numbers, than before.
+  void set_row(std::uint32_t row, std::uint32_t role, Row orbit) { rows_[role][row] = orbit; }
+  void set_own(std::uint32_t row, std::span<const double> own);
   /// Takes a match out; its row keeps what stands in it.
   void vacate(std::uint32_t row);
   /// Keeps these rows, in this order: row k becomes what `rows[k]` was.
@@ -63,6 +68,7 @@ class MatchTable {
   Widths widths_;
   std::uint32_t vacant_ = 0;
   std::vector<DartId> keys_;             // kNoDart: vacant
+  std::vector<std::uint8_t> ways_;
   std::vector<std::vector<Row>> rows_;     // by role
   std::vector<std::vector<double>> own_;   // by value, all its doubles match by match
   std::vector<DartId> nodes_, targets_;    // by match

@@ -4,58 +4,104 @@
 #include <algorithm>
 
 #include "gmap/orbit_walk.h"
-#include "support/sort_once.h"
 
 namespace gmsim::engine {
 
+using compile::Aspects;
+using compile::Dependence;
+
 MatchWatch::MatchWatch(const ForceContext& context, const compile::RootedPattern& pattern,
                        const compile::ItemBody& body)
-    : context_(context), pattern_(pattern), body_(body), ways_(ways_to_hook(pattern.match)) {
+    : context_(context),
+      body_(body),
+      pattern_(pattern_darts(pattern.match)),
+      simple_(pattern.match.predicates.empty()) {
   clear();
 }
 
 void MatchWatch::clear() {
   watch_.clear();
-  complete_ = pattern_.match.predicates.empty();
+  complete_ = simple_;
 }
 
-void MatchWatch::add(const ForceMatch& match) {
+void MatchWatch::add_orbit(types::OrbitType type, DartId dart, Aspects what) {
+  gmap::for_each_dart(context_.state.map, type, dart,
+                      [&](DartId d) { darts_.push_back({d, what}); });
+}
+
+void MatchWatch::add_pattern(const ForceMatch& match) {
+  const gmap::GMap& map = context_.state.map;
+  darts_.insert(darts_.end(), match.roles.walked.begin(), match.roles.walked.end());
+  const DartId hook = match.nodes[body_.hook];
+  for (const PatternDart& of : pattern_) {
+    DartId dart = hook;
+    for (auto link = of.to_hook.rbegin(); link != of.to_hook.rend(); ++link)
+      dart = map.alpha(*link, dart);
+    darts_.push_back({dart, compile::links(of.links) | compile::kLife});
+  }
+  add_orbit(body_.orbit, hook, compile::links_of_numbers(body_.orbit) | compile::kLife);
+}
+
+void MatchWatch::add(const ForceMatch& match, const ShapeInputs& inputs) {
   complete_ = complete_ && !match.roles.everywhere;
   if (!complete_) return;
-  const gmap::GMap& map = context_.state.map;
-  darts_ = match.roles.walked;
-  const DartId hook = match.nodes[body_.hook];
-  for (const Way& way : ways_) {
-    DartId dart = hook;
-    for (auto link = way.rbegin(); link != way.rend(); ++link) dart = map.alpha(*link, dart);
-    darts_.push_back(dart);
-  }
-  const auto add_orbit = [&](OrbitType type, DartId dart) {
-    gmap::for_each_dart(map, type, dart, [&](DartId d) { darts_.push_back(d); });
-  };
-  add_orbit(body_.orbit, hook);
-  for (const compile::Role& role : match.roles.roles) {
-    // All darts of an orbit with another row are changed. What the match knows itself may rest on any
-    // of the links in an orbit.
-    if (match.own.empty()) {
-      darts_.push_back(role.dart);
-    } else {
-      add_orbit(role.type, role.dart);
-    }
-  }
-  support::sort_once(darts_);
-  for (const DartId dart : darts_) watch_.add(dart, match.key);
+  darts_.clear();
+  add_pattern(match);
+  const std::vector<compile::Role>& roles = match.roles.roles;
+  for (const compile::Role& role : roles)
+    darts_.push_back({role.dart, compile::row_of(role.type)});
+  for (const std::uint32_t role : inputs.column_roles())
+    darts_.push_back({roles[role].dart, compile::values_of(roles[role].type)});
+  // What a match knows itself may rest on any of the links in an orbit, and on values below it.
+  for (const std::uint32_t role : inputs.own_roles())
+    add_orbit(roles[role].type, roles[role].dart,
+              compile::links_of_numbers(roles[role].type) | compile::kAllValues);
+  enter(match.key);
 }
 
-void MatchWatch::find_stale(std::span<const DartId> changed, std::vector<DartId>& keys,
-                            std::vector<DartId>& hooks) const {
-  const gmap::GMap& map = context_.state.map;
-  for (const DartId dart : changed) {
-    watch_.for_each(dart, [&](DartId key) { keys.push_back(key); });
-    if (!map.alive(dart)) continue;
-    for (const Way& way : ways_) hooks.push_back(follow(map, dart, way));
+void MatchWatch::add_excluded(const ForceMatch& match) {
+  complete_ = complete_ && !match.roles.everywhere;
+  if (!complete_) return;
+  darts_.clear();
+  add_pattern(match);
+  for (Dependence& at : darts_) at.what = compile::kEverything;
+  enter(match.key);
+}
+
+void MatchWatch::enter(DartId key) {
+  std::sort(darts_.begin(), darts_.end(),
+            [](const Dependence& a, const Dependence& b) { return a.dart < b.dart; });
+  for (std::size_t k = 0; k < darts_.size();) {
+    DartWatch::Entry entry{key, 0};
+    const DartId dart = darts_[k].dart;
+    for (; k < darts_.size() && darts_[k].dart == dart; ++k) entry.what |= darts_[k].what;
+    watch_.add(dart, entry);
   }
-  support::sort_once(keys);
+}
+
+void MatchWatch::find_stale(std::span<const Dependence> changed, std::vector<StaleMatch>& stale,
+                            std::vector<DartId>& hooks, std::vector<DartId>& parts) {
+  const gmap::GMap& map = context_.state.map;
+  for (const auto& [dart, what] : changed) {
+    for (const DartWatch::Entry& entry : watch_.at(dart))
+      if ((entry.what & what) != 0) stale.push_back({entry.key, entry.what & what});
+    if (!map.alive(dart)) continue;
+    if ((what & compile::links(body_.orbit)) != 0) parts.push_back(dart);
+    for (const PatternDart& of : pattern_)
+      if (what == compile::kEverything || (what & compile::links(of.links)) != 0)
+        hooks.push_back(follow(map, dart, of.to_hook));
+  }
+  if (stale.empty()) return;
+  std::sort(stale.begin(), stale.end(),
+            [](const StaleMatch& a, const StaleMatch& b) { return a.key < b.key; });
+  auto last = stale.begin();
+  for (const StaleMatch& match : std::span(stale).subspan(1)) {
+    if (match.key == last->key)
+      last->what |= match.what;
+    else
+      *++last = match;
+  }
+  stale.erase(last + 1, stale.end());
 }
 
 }  // namespace gmsim::engine

@@ -9,6 +9,8 @@ void Rewriter::Implementation::change_links(const compile::RewritePlan& plan) {
   add_darts(plan);
   write_links();
   append(row_plan_->touched, effects_->touched);
+  effects_->changed_links =
+      OrbitType::from_bits(effects_->changed_links.bits() | plan.changed_links.bits());
   remove_darts();
 }
 

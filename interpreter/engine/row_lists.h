@@ -37,6 +37,11 @@ class RowLists {
     return {entries_.data() + lists_[row].begin, lists_[row].count};
   }
 
+  /// To change entries where they are.
+  [[nodiscard]] std::span<Entry> entries(std::size_t row) {
+    return {entries_.data() + lists_[row].begin, lists_[row].count};
+  }
+
   void append(std::size_t row, const Entry& entry) { insert(row, lists_[row].count, entry); }
   void insert(std::size_t row, std::size_t at, const Entry& entry) {
     SlotList& list = lists_[row];

@@ -66,7 +66,7 @@ class TreeForces final : public ForceField {
   [[nodiscard]] bool reads_time() const override {
     return reads(Kind::Time) || reads(Kind::Step) || reads(Kind::Dt);
   }
-  void refresh(std::span<const DartId> touched) override;
+  void refresh(std::span<const compile::Dependence> changed) override;
   [[nodiscard]] const std::optional<support::Diagnostic>& error() const override { return error_; }
   [[nodiscard]] std::string explain() const override;
 
@@ -232,7 +232,7 @@ bool TreeForces::reads(Kind kind) const {
   return false;
 }
 
-void TreeForces::refresh(std::span<const DartId>) {
+void TreeForces::refresh(std::span<const compile::Dependence>) {
   error_.reset();
   for (const auto& of : interactions_)
     if ((error_ = of->rebuild())) return;

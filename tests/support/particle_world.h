@@ -152,7 +152,7 @@ class HandWrittenForces : public engine::ForceField {
   std::vector<support::Diagnostic> notices(const Motion&, double) override { return {}; }
   bool reads_velocity() const override { return true; }
   bool reads_time() const override { return false; }
-  void refresh(std::span<const types::DartId>) override {}
+  void refresh(std::span<const compile::Dependence>) override {}
   const std::optional<support::Diagnostic>& error() const override { return failure; }
   std::string explain() const override { return "hand-written forces\n"; }
 

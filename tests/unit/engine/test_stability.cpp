@@ -143,6 +143,35 @@ TEST_CASE("the limit of a chain, at rest and stretched") {
   CHECK(limit_of(2).omega_global >= exact);
 }
 
+TEST_CASE("a look at torn vertices sees what is stiffer than the stiffest mode") {
+  constexpr std::size_t kParticles = 21;
+  SpringChain forces(300, 1. / 20, 0, 0.5);
+  const auto method = make_integrator(*find_integrator("rk4"));
+  engine::StabilityEstimator estimator(forces, *method);
+  engine::PhasePoint point;
+  point.resize(kParticles);
+  for (std::size_t r = 0; r < kParticles; ++r) point.motion.position[r].x = static_cast<double>(r) / 20;
+  std::vector<double> inverse(kParticles, 1 / 0.5);
+  engine::StabilityLimit limit;
+  CHECK(estimator.has_stiffened_at(std::array<gmap::Row, 1>{3}, point, inverse));  // nothing is known
+  REQUIRE(estimator.estimate(point, inverse, limit));
+  const std::array<gmap::Row, 2> torn{9, 10};
+  CHECK_FALSE(estimator.has_stiffened_at(torn, point, inverse));
+  // A part with a quarter of the mass, between the same two springs: 2 k / m is twice as much as
+  // the 4 k / m of the chain.
+  inverse[10] *= 4;
+  CHECK(estimator.has_stiffened_at(torn, point, inverse));
+  // A look goes as many vertices far as it takes products.
+  CHECK_FALSE(estimator.has_stiffened_at(std::array<gmap::Row, 1>{0}, point, inverse));
+  // Half of it is about as stiff as the chain, not stiffer by 2 % in the modes of one vertex.
+  inverse[10] = 1 / 0.5;
+  inverse[3] *= 1.01;
+  CHECK_FALSE(estimator.has_stiffened_at(std::array<gmap::Row, 1>{3}, point, inverse));
+  // A held vertex has no mode.
+  inverse[3] = 0;
+  CHECK_FALSE(estimator.has_stiffened_at(std::array<gmap::Row, 1>{3}, point, inverse));
+}
+
 engine::IntegratorSettings rk4(double dt, OnUnstable policy) {
   engine::IntegratorSettings settings;
   settings.dt = dt;

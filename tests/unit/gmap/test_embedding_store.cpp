@@ -101,3 +101,40 @@ TEST_CASE("derived embeddings have no column") {
   EmbeddingStore store(schema, built.map);
   CHECK_THROWS_AS(store.use(id), support::InternalError);
 }
+
+TEST_CASE("a column reads from elsewhere what is asked for, until it is set or the reading stops") {
+  const MeshMap built = build_map(grid(2, 1, 1.0, 1.0, GridCells::Quads));
+  EmbeddingSchema schema;
+  const auto position = schema.add(declaration("position", OrbitType{1, 2}));
+  EmbeddingStore store(schema, built.map);
+  EmbeddingColumn& column = store.use(position);
+  const auto set = [&](Row row, double x) {
+    column.set(row, std::array{x, x + 0.1, x + 0.2});
+  };
+  for (Row row = 0; row < 6; ++row) set(row, row);
+  std::vector<double> records;  // of four doubles, for the first five rows
+  for (Row row = 0; row < 5; ++row)
+    for (int k = 0; k < 4; ++k) records.push_back(100 + 10 * row + k);
+
+  column.read_from(records.data(), 4, 5);
+  CHECK(column.get(2)[0] == 120);
+  CHECK(column.get(2)[2] == 122);
+  CHECK(column.get(5)[0] == 5);  // is in no record
+  CHECK_THROWS_AS((void)column.data(), support::InternalError);
+  set(3, 33);
+  CHECK(column.get(3)[0] == 33);
+  column.copy(4, 0);
+  CHECK(column.get(0)[1] == 141);
+  records[4 * 2] = 7;  // read before: the copy stays
+  CHECK(column.get(2)[0] == 120);
+  column.read_from(records.data(), 4, 5);  // another moment: everything is read again
+  CHECK(column.get(2)[0] == 7);
+  CHECK(column.get(3)[0] == 130);
+  column.stop_reading();
+  CHECK(column.get(2)[0] == 7);
+  CHECK(column.get(1)[0] == 1);  // nobody asked
+  CHECK(column.get(0)[1] == 141);
+  CHECK_NOTHROW((void)column.data());
+  CHECK_THROWS_AS(column.read_from(records.data(), 2, 5), support::InternalError);
+  CHECK_THROWS_AS(column.read_from(records.data(), 4, 7), support::InternalError);
+}
