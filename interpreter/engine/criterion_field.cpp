@@ -194,7 +194,8 @@ CriterionField::Diagnostic CriterionField::repair(std::span<const compile::Depen
 CriterionField::Diagnostic CriterionField::repair(const StaleMatch& match) {
   const MatchSet::Place place = matches_.place(match.key);
   if (place.shape == MatchSet::kNowhere) {
-    stale_.hooks.push_back(match.key);  // there may be a match where a condition stood against it
+    // There may be a match where a condition stood against it.
+    stale_.hooks.push_back(match.key);
     return std::nullopt;
   }
   if (Diagnostic error = matches_.read_again(place, match.what, reading_)) return error;

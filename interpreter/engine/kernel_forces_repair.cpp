@@ -58,7 +58,8 @@ void KernelForces::look_at(Repair& repair, const StaleMatch& stale) {
   MatchSet& matches = repair.of->matches();
   const MatchSet::Place place = matches.place(stale.key);
   if (place.shape == MatchSet::kNowhere) {
-    repair.stale.hooks.push_back(stale.key);  // there may be a match where a condition stood against it
+    // There may be a match where a condition stood against it.
+    repair.stale.hooks.push_back(stale.key);
     return;
   }
   if ((error_ = matches.read_again(place, stale.what, reading_))) return;

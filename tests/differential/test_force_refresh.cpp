@@ -34,11 +34,20 @@ void compare(engine::ForceField& kept, engine::ForceField& anew, ForceWorld& wor
   REQUIRE(energy == other);
 }
 
+/// Cuts the facet of a dart.
+void separate(ForceWorld& world, engine::Rewriter& rewriter, types::DartId dart,
+              engine::ForceField& forces) {
+  const compile::Rule* rule = world.program().find_rule("separate_elements");
+  REQUIRE(rule != nullptr);
+  const engine::RewriteOutcome outcome = rewriter.apply(*rule, {&dart, 1});
+  REQUIRE(outcome.applied());
+  forces.refresh(engine::map_delta(world.state(), outcome.effects).darts);
+  REQUIRE_MESSAGE(!forces.error(), forces.error()->message);
+}
+
 /// Cuts random facets, refreshing after each cut.
 void tear(ForceWorld& world, const engine::Model& model, std::uint32_t seed, int cuts) {
   const auto kept = kernel_forces(world, model);
-  const compile::Rule* rule = world.program().find_rule("separate_elements");
-  REQUIRE(rule != nullptr);
   engine::Rewriter rewriter(world.state());
   std::mt19937 random(seed);
   const int top = world.program().dimension;
@@ -46,10 +55,7 @@ void tear(ForceWorld& world, const engine::Model& model, std::uint32_t seed, int
     CAPTURE(cut);
     const types::DartId dart{static_cast<std::uint32_t>(random() % world.state().map.dart_end())};
     if (!world.state().map.alive(dart) || world.state().map.alpha(top, dart) == dart) continue;
-    const engine::RewriteOutcome outcome = rewriter.apply(*rule, {&dart, 1});
-    REQUIRE(outcome.applied());
-    kept->refresh(engine::map_delta(world.state(), outcome.effects).darts);
-    REQUIRE_MESSAGE(!kept->error(), kept->error()->message);
+    separate(world, rewriter, dart, *kept);
     compare(*kept, *kernel_forces(world, model), world);
   }
 }
@@ -93,4 +99,31 @@ TEST_CASE("after each cut the forces equal those made anew, bit by bit") {
       tear(world, model_of(world.program(), uniform, any), seed, 25);
     }
   }
+}
+
+TEST_CASE("a vertex that splits off is summed while its forces are there, on meshes of many pieces") {
+  ForceWorld world(gmap::grid(44, 44, 1, 1, gmap::GridCells::Quads), 7);
+  const engine::Model model = model_of(world.program(), true, [](const auto& body) {
+    return body.name == "stretch_spring" || body.name == "linear_shear_spring";
+  });
+  const gmap::GMap& map = world.state().map;
+  engine::Rewriter rewriter(world.state());
+  const auto kept = kernel_forces(world, model);
+  compare(*kept, *kept, world);
+  // Cuts all edges around some vertices, here and there in the mesh: each comes apart into four.
+  std::uint32_t split = 0;
+  for (std::uint32_t k = 1; k < 8; ++k) {
+    CAPTURE(k);
+    types::DartId dart{k * map.dart_end() / 9};
+    for (int edge = 0; edge < 4; ++edge) {
+      if (map.alpha(2, dart) == dart) break;
+      const types::DartId next = map.alpha(1, map.alpha(2, dart));
+      const std::size_t before = world.motion().position.size();
+      separate(world, rewriter, dart, *kept);
+      split += static_cast<std::uint32_t>(world.motion().position.size() - before);
+      dart = next;
+    }
+    compare(*kept, *kernel_forces(world, model), world);
+  }
+  CHECK(split >= 12);
 }

@@ -148,13 +148,13 @@ class Model {
 /// A scene and its simulation.
 class Run {
  public:
-  explicit Run(const std::filesystem::path& path) {
+  explicit Run(const std::filesystem::path& path, unsigned threads = 1) : threads_(threads) {
     scene_ = scene::load_scene(path, {}, sources_, diagnostics_);
     if (scene_) create();
   }
   void create() {
-    simulation_ = engine::Simulation::create(*scene_->state, scene_->model, scene_->integrator, {},
-                                             diagnostics_);
+    simulation_ = engine::Simulation::create(*scene_->state, scene_->model, scene_->integrator,
+                                             {.threads = threads_}, diagnostics_);
   }
   /// Finds everything anew in the state, or puts another simulation in place of this one. Moved
   /// vertices are known by darts that may be gone, so that these simulations go on.
@@ -187,6 +187,7 @@ class Run {
   }
 
  private:
+  const unsigned threads_;
   support::SourceMap sources_;
   support::Diagnostics diagnostics_;
   std::unique_ptr<scene::Scene> scene_;
@@ -233,7 +234,7 @@ class Trials {
     if (!first.good()) return report(seed, model, 0, first.error());
     model.set_thresholds(choose_thresholds(first, random));
     std::ofstream(path_) << model.text();
-    Run kept(path_), anew(path_);
+    Run kept(path_, 1 + seed % 2), anew(path_);  // threads change no bit
     if (!kept.good() || !anew.good()) return report(seed, model, 0, kept.error() + anew.error());
     for (int step = 1; step <= kSteps; ++step) {
       const auto a = kept.step(), b = anew.step();
