@@ -22,11 +22,13 @@ class CellMaker {
  public:
   CellMaker(const Mesh& mesh, MeshMap& built) : mesh_(mesh), built_(built) {}
 
-  std::vector<CellFacet> make(std::span<const std::uint32_t> cell_points) {
+  std::vector<CellFacet> make(std::span<const std::uint32_t> cell_points,
+                              std::span<const std::uint32_t> order) {
     built_.map.add_darts(count_darts());
     built_.dart_point.resize(built_.map.dart_end());
     built_.dart_cell.resize(built_.map.dart_end());
-    for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
+    for (std::size_t k = 0; k < mesh_.cell_count(); ++k) {
+      const std::size_t cell = order.empty() ? k : order[k];
       const auto corners = cell_points.subspan(mesh_.cell_begin[cell], mesh_.corners(cell).size());
       const std::uint32_t first = next_;
       switch (mesh_.kinds[cell]) {
@@ -170,14 +172,15 @@ MeshMap nothing(std::vector<MeshProblem> problems) {
 
 }  // namespace
 
-MeshMap build_map(const Mesh& mesh) {
+MeshMap build_map(const Mesh& mesh, std::span<const std::uint32_t> order) {
   GMSIM_CHECK(mesh.dimension >= 1 && mesh.dimension <= 3, "a mesh has dimension 1, 2 or 3");
+  GMSIM_CHECK(order.empty() || order.size() == mesh.cell_count(), "an order names every cell");
   MeshMap built;
   built.map = GMap(mesh.dimension);
   const std::vector<std::uint32_t> cell_points = check_cells(mesh, built.problems);
   if (built.failed()) return nothing(std::move(built.problems));
   built.point_dart.assign(mesh.points.size(), kNoDart);
-  const std::vector<CellFacet> facets = CellMaker(mesh, built).make(cell_points);
+  const std::vector<CellFacet> facets = CellMaker(mesh, built).make(cell_points, order);
   sew_facets(built, facets);
   if (built.failed()) return nothing(std::move(built.problems));
   find_vertices(built);

@@ -57,8 +57,8 @@ struct MeshMap {
   [[nodiscard]] bool failed() const;
 };
 
-/// Builds the map of a mesh of any of the three dimensions: darts cell by cell in file order,
-/// facets shared by two cells sewn in dimension n. Polygons are taken as they come: a generalized
+/// Builds the map of a mesh of any of the three dimensions: darts cell by cell, in the order of the
+/// mesh or in `order` (all cells, each once), facets shared by two cells sewn in dimension n. Polygons are taken as they come: a generalized
 /// map needs no orientation, and a mesh may be non-orientable.
 ///
 /// Darts of a polygon: 2c at corner c and 2c + 1 at corner c + 1 for its edge c. A solid is its
@@ -74,6 +74,6 @@ struct MeshMap {
 /// cell that repeats a point or has no measure (below 1e-13 of its extent to the power of the
 /// dimension), and a facet of more than two cells. Every message names what it speaks of by number,
 /// the first ten. Nothing is built when a problem is fatal.
-[[nodiscard]] MeshMap build_map(const Mesh& mesh);
+[[nodiscard]] MeshMap build_map(const Mesh& mesh, std::span<const std::uint32_t> order = {});
 
 }  // namespace gmsim::gmap

@@ -68,12 +68,23 @@ Hdf5Handle file_access() {
   require(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110),
           "choose the file format");
   require(H5Pset_file_locking(access.get(), false, true), "switch file locks off");
+  // While a program writes, one that reads may have to look again; the library waits twice as long
+  // each time, so with the 100 times of its own a damaged file would be waited for without end.
+  constexpr unsigned kLooks = 20;  // about 1 ms
+  require(H5Pset_metadata_read_attempts(access.get(), kLooks), "choose how often to look");
   return access;
 }
 
 Hdf5Handle create_file(const std::filesystem::path& path) {
   const Hdf5Handle access = file_access();
-  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose,
+  // A process that is killed while it writes stops between two pages of memory: what is changed in
+  // place must not lie on both sides, or it is left half new, with a checksum that is wrong.
+  constexpr hsize_t kPage = 4096;
+  const Hdf5Handle settings(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make file settings");
+  require(H5Pset_file_space_strategy(settings.get(), H5F_FSPACE_STRATEGY_PAGE, false, 1),
+          "choose how the file is filled");
+  require(H5Pset_file_space_page_size(settings.get(), kPage), "choose the page size of the file");
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, settings.get(), access.get()), H5Fclose,
           "create the file"};
 }
 

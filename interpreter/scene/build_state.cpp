@@ -5,6 +5,7 @@
 
 #include "engine/apply_change.h"
 #include "gmap/cell_measure.h"
+#include "gmap/cell_order.h"
 #include "gmap/mesh.h"
 #include "gmap/orbit_walk.h"
 #include "scene/build_scene.h"
@@ -109,7 +110,7 @@ void share_vertex_masses(Building& building, std::size_t body) {
 
 bool build_state(Building& building) {
   merge_meshes(building);
-  gmap::MeshMap built = gmap::build_map(building.mesh);
+  gmap::MeshMap built = gmap::build_map(building.mesh, gmap::cell_order(building.mesh));
   if (!built.problems.empty()) report_problems(building);
   if (built.failed() || building.diagnostics.has_errors()) return false;
   building.mesh_dart_point = std::move(built.dart_point);
