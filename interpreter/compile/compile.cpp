@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "compile/shared_values.h"
-
 namespace gmsim::compile {
 
 namespace {
@@ -107,7 +105,6 @@ Rule compile_rule(const check::Rule& rule, const gmap::EmbeddingSchema& schema) 
   result.match = compile_pattern(rule.left, rule.hooks);
   add_predicates(result.match, rule.parameters, rule.steps, schema);
   result.rewrite = compile_rewrite(rule, schema);
-  share_values(result.rewrite.assignments, result.match.positions);
   result.match.width = result.rewrite.kept_columns + result.rewrite.created_columns;
   return result;
 }

@@ -40,6 +40,13 @@ struct Assignment {
   std::vector<std::uint32_t> joined = {};
   Span target_span;
   Span span;
+
+  /// `joined`, a bit for each position.
+  [[nodiscard]] std::uint8_t joined_rows() const {
+    unsigned bits = 0;
+    for (const std::uint32_t position : joined) bits |= 1u << position;
+    return static_cast<std::uint8_t>(bits);
+  }
 };
 
 /// What becomes of the orbits of one type that meet one class of nodes: those that links of the

@@ -5,21 +5,6 @@
 
 namespace gmsim::engine {
 
-double* Arena::allocate(std::size_t count) {
-  constexpr std::size_t kChunk = 1024;
-  while (chunk_ < chunks_.size() && used_ + count > chunks_[chunk_].size) {
-    ++chunk_;
-    used_ = 0;
-  }
-  if (chunk_ == chunks_.size()) {
-    const std::size_t size = std::max(kChunk, count);
-    chunks_.push_back({std::make_unique<double[]>(size), size});
-  }
-  double* block = chunks_[chunk_].data.get() + used_;
-  used_ += count;
-  return block;
-}
-
 void Frame::reset(std::uint32_t slots) {
   for (const types::Slot slot : used_) cell(slot) = Cell{};
   used_.clear();

@@ -3,39 +3,17 @@
 
 #include <cstdint>
 #include <deque>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "engine/stack_memory.h"
 #include "types/expr.h"
 #include "types/value.h"
 
 namespace gmsim::engine {
 
-/// Stack of doubles whose blocks never move while they are in use.
-class Arena {
- public:
-  struct Mark {
-    std::size_t chunk = 0;
-    std::size_t used = 0;
-  };
-  [[nodiscard]] double* allocate(std::size_t count);
-  [[nodiscard]] Mark mark() const { return {chunk_, used_}; }
-  void release(Mark mark) {
-    chunk_ = mark.chunk;
-    used_ = mark.used;
-  }
-
- private:
-  struct Chunk {
-    std::unique_ptr<double[]> data;
-    std::size_t size = 0;
-  };
-  std::vector<Chunk> chunks_;
-  std::size_t chunk_ = 0;
-  std::size_t used_ = 0;
-};
+using Arena = StackMemory<double>;
 
 /// The locals of one item: a dart, numbers or a collection of darts in each slot.
 class Frame {

@@ -125,7 +125,7 @@ Matcher& Rewriter::matcher() { return implementation_->matcher; }
 
 Rewriter::Implementation::Implementation(Rewriter& self, State& object, RewriteOptions options)
     : state(object), matcher(object, options.matcher), self_(self), options_(options),
-      spreader_(object, matcher.evaluator()) {}
+      spreader_(object, matcher.evaluator()), programs_(object), machine_(object) {}
 
 void Rewriter::Implementation::begin() {
   GMSIM_CHECK(!recording_, "begin() does not nest");

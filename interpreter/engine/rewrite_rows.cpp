@@ -2,6 +2,7 @@
 #include "engine/rewrite_rows.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace gmsim::engine {
 
@@ -27,10 +28,6 @@ class RowPlanner {
     for (const ColumnChange& change : plan_.changes) {
       list_column(change.column, out_.touched);
       if (change.fate == NodeFate::Removed) list_column(change.column, out_.removed);
-    }
-    for (const compile::Assignment& assignment : plan_.assignments) {
-      std::vector<std::uint32_t>& rows = out_.assigned_rows.emplace_back();
-      each_group(assignment.joined, [&](const auto& group) { rows.push_back(group.front()); });
     }
     for (const compile::OrbitClasses& classes : plan_.orbits) {
       RowPlan::Orbits& orbits = out_.orbits.emplace_back();
@@ -121,11 +118,42 @@ class RowPlanner {
 
 }  // namespace
 
-RowPlan::RowPlan(const compile::Rule& rule, const Match& match) {
+RowPlan::RowPlan(const compile::Rule& rule, const Match& match)
+    : rows_(match.rows), positions_(match.positions) {
   RowPlanner(rule, match, *this).run();
 }
 
-const RowPlan& RowPlans::find(const compile::Rule& rule, const Match& match) {
+const RowPlan::Groups& RowPlan::groups(std::uint8_t chosen, std::uint8_t joined) {
+  for (const KnownGroups& known : groups_) {
+    if (known.chosen == chosen && known.joined == joined) return known.groups;
+  }
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  std::vector<std::uint32_t> rows(rows_);
+  std::iota(rows.begin(), rows.end(), 0u);
+  if (chosen != 0) rows = this->groups(0, chosen).first;
+  Groups groups;
+  groups.of.assign(rows_, kNone);
+  std::vector<std::uint32_t> group;
+  for (const std::uint32_t first : rows) {
+    if (groups.of[first] != kNone) continue;
+    const auto number = static_cast<std::uint32_t>(groups.first.size());
+    groups.first.push_back(first);
+    groups.of[first] = number;
+    group.assign(1, first);
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      for (std::uint32_t position = 0; position < positions_; ++position) {
+        if ((joined >> position & 1u) == 0) continue;
+        const std::uint32_t to = next[std::size_t{group[k]} * positions_ + position];
+        if (groups.of[to] != kNone) continue;
+        groups.of[to] = number;
+        group.push_back(to);
+      }
+    }
+  }
+  return groups_.emplace_back(KnownGroups{chosen, joined, std::move(groups)}).groups;
+}
+
+RowPlan& RowPlans::find(const compile::Rule& rule, const Match& match) {
   if (last_rule_ != &rule) {
     last_rule_ = &rule;
     last_ = &rules_[&rule];
@@ -136,7 +164,7 @@ const RowPlan& RowPlans::find(const compile::Rule& rule, const Match& match) {
   return add(*last_, rule, match);
 }
 
-const RowPlan& RowPlans::add(OfRule& of, const compile::Rule& rule, const Match& match) {
+RowPlan& RowPlans::add(OfRule& of, const compile::Rule& rule, const Match& match) {
   auto plan = std::make_unique<RowPlan>(rule, match);
   if (match.rows > kMostRows) return *(large_ = std::move(plan));
   if (of.plans.size() < kMostPlans) return *of.plans.emplace_back(std::move(plan));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -33,22 +34,39 @@ struct RowPlan {
   template <typename T>
   using ByDimension = std::array<std::vector<T>, types::kMaxDimension + 1>;
 
+  /// Rows that stand for groups of them.
+  struct Groups {
+    std::vector<std::uint32_t> first;  ///< row of each group, ascending
+    std::vector<std::uint32_t> of;     ///< for each row: number of its group
+  };
+
   RowPlan(const compile::Rule& rule, const Match& match);
+  /// Those that the label positions `joined` join, a bit for each position; but of the rows only
+  /// the first ones of the groups that `chosen` join count. Made when asked for first.
+  const Groups& groups(std::uint8_t chosen, std::uint8_t joined);
 
   std::vector<std::uint32_t> next;  ///< of the matches that it is for
   ByDimension<Link> kept_links;     ///< alpha(from) := to, at darts that are there already
   ByDimension<Link> created_links;  ///< the same at created darts
   std::vector<Place> touched;
   std::vector<Place> removed;
-  std::vector<std::vector<std::uint32_t>> assigned_rows;  ///< for each assignment: where to evaluate
-  std::vector<Orbits> orbits;                             ///< for each entry of the plan's orbits
+  std::vector<Orbits> orbits;       ///< for each entry of the plan's orbits
+
+ private:
+  struct KnownGroups {
+    std::uint8_t chosen = 0, joined = 0;
+    Groups groups;
+  };
+  std::uint32_t rows_ = 0;
+  std::uint32_t positions_ = 0;
+  std::deque<KnownGroups> groups_;  // which stay where they are
 };
 
 /// Row plans of the rules that were applied. Rules stay where they are while this lives.
 class RowPlans {
  public:
   /// Valid until the next call.
-  const RowPlan& find(const compile::Rule& rule, const Match& match);
+  RowPlan& find(const compile::Rule& rule, const Match& match);
 
  private:
   static constexpr std::uint32_t kMostRows = 64;   // larger matches hardly ever come again
@@ -58,7 +76,7 @@ class RowPlans {
     std::size_t oldest = 0;
   };
 
-  const RowPlan& add(OfRule& of, const compile::Rule& rule, const Match& match);
+  RowPlan& add(OfRule& of, const compile::Rule& rule, const Match& match);
 
   std::unordered_map<const compile::Rule*, OfRule> rules_;
   const compile::Rule* last_rule_ = nullptr;

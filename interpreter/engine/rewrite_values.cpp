@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rewriter: the values of a rule's right side, evaluated on the map before the rewrite.
+// Rewriter: the values of a rule's right side, computed on the map before the rewrite by a program; where
+// that gives up, the trees are evaluated, one by one, and say what is missing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,12 +10,45 @@
 
 namespace gmsim::engine {
 
+namespace {
+
+bool all_finite(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
 bool Rewriter::Implementation::evaluate(const compile::Rule& rule, RewriteOutcome& outcome) {
-  const TreeEvaluator::Keeping keeping(matcher.evaluator());
-  for (std::size_t k = 0; k < rule.rewrite.assignments.size(); ++k) {
-    const compile::Assignment& assignment = rule.rewrite.assignments[k];
+  if (rule.rewrite.assignments.empty()) return true;
+  return run_program(rule) || evaluate_trees(rule, outcome);
+}
+
+/// False, with nothing assigned, when a value is missing or is no number: the trees say which.
+bool Rewriter::Implementation::run_program(const compile::Rule& rule) {
+  const compile::ValueProgram& program = programs_.find(rule);
+  if (!program.complete || !machine_.run(program, match_, *row_plan_, frame_)) return false;
+  for (const compile::ValueProgram::Output& output : program.outputs) {
+    if (!all_finite(machine_.value(output.value))) return false;
+  }
+  for (const compile::ValueProgram::Output& output : program.outputs) {
+    const compile::Assignment& assignment = rule.rewrite.assignments[output.assignment];
+    const std::span<const double> values = machine_.value(output.value);
+    const std::vector<std::uint32_t>& rows = row_plan_->groups(0, assignment.joined_rows()).first;
+    std::size_t begin = numbers_.size();
+    numbers_.insert(numbers_.end(), values.begin(), values.end());
+    for (const std::uint32_t row : rows) {
+      assigned_.push_back({&assignment, types::kNoDart, begin});
+      assigned_cells_.emplace_back(row, assignment.column);
+      begin += values.size() / rows.size();
+    }
+  }
+  return true;
+}
+
+bool Rewriter::Implementation::evaluate_trees(const compile::Rule& rule, RewriteOutcome& outcome) {
+  for (const compile::Assignment& assignment : rule.rewrite.assignments) {
     if (!state.store.in_use(assignment.embedding)) continue;
-    for (const std::uint32_t row : row_plan_->assigned_rows[k]) {
+    for (const std::uint32_t row : row_plan_->groups(0, assignment.joined_rows()).first) {
       if (!evaluate_at(rule, assignment, row, outcome)) return false;
     }
   }
@@ -33,7 +67,7 @@ bool Rewriter::Implementation::evaluate_at(const compile::Rule& rule,
     fail_evaluation(rule, outcome);
     return false;
   }
-  if (!std::all_of(value.begin(), value.end(), [](double x) { return std::isfinite(x); })) {
+  if (!all_finite(value)) {
     const gmap::EmbeddingDecl& decl = state.program.schema[assignment.embedding];
     const types::Value shown{decl.type, {value.begin(), value.end()}};
     fail(rule,

@@ -8,6 +8,8 @@
 #include "engine/rewrite.h"
 #include "engine/rewrite_rows.h"
 #include "engine/spread_values.h"
+#include "engine/value_machine.h"
+#include "engine/value_programs.h"
 #include "gmap/journal.h"
 
 namespace gmsim::engine {
@@ -49,6 +51,8 @@ class Rewriter::Implementation {
   void forget_effects(const Counts& before);
   // values of the right side, on the old map
   bool evaluate(const compile::Rule& rule, RewriteOutcome& outcome);
+  bool run_program(const compile::Rule& rule);
+  bool evaluate_trees(const compile::Rule& rule, RewriteOutcome& outcome);
   bool evaluate_at(const compile::Rule& rule, const compile::Assignment& assignment,
                    std::uint32_t row, RewriteOutcome& outcome);
   bool bind_row(const compile::MatchPlan& plan, std::uint32_t row, RewriteOutcome& outcome);
@@ -80,12 +84,14 @@ class Rewriter::Implementation {
   bool recording_ = false;
   ValueSpreader spreader_;
   RowPlans row_plans_;
+  ValuePrograms programs_;
+  ValueMachine machine_;
 
   // work space of one application
   Frame frame_;
   Match match_;
   std::vector<DartId> hooks_;
-  const RowPlan* row_plan_ = nullptr;         // of the match
+  RowPlan* row_plan_ = nullptr;         // of the match
   std::vector<AssignedValue> assigned_;
   std::vector<std::pair<std::uint32_t, compile::Column>> assigned_cells_;  // row and column
   std::vector<double> numbers_;

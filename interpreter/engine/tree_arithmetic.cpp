@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/builtins.h"
+#include "engine/matrix_product.h"
 #include "engine/tree_walker.h"
 
 namespace gmsim::engine {
@@ -26,48 +26,6 @@ double compare(ExprKind kind, double a, double b) {
       return a > b;
     default:
       return a >= b;
-  }
-}
-
-/// A matrix operand of a product, row-major; sym3 is written out.
-struct MatrixOperand {
-  MatrixOperand(ValueKind kind, const double* v) {
-    switch (kind) {
-      case ValueKind::Mat3:
-        std::copy_n(v, 9, entries.begin());
-        break;
-      case ValueKind::Sym3:
-        entries = {v[0], v[5], v[4], v[5], v[1], v[3], v[4], v[3], v[2]};
-        break;
-      default:
-        rows = 2;
-        std::copy_n(v, 4, entries.begin());
-    }
-  }
-  int rows = 3;
-  std::array<double, 9> entries{};
-};
-
-bool is_vector(const types::ValueType& type) {
-  return type.kind == ValueKind::Vec2 || type.kind == ValueKind::Vec3;
-}
-
-void matrix_times_vector(const MatrixOperand& a, const double* v, double* out) {
-  for (int i = 0; i < a.rows; ++i) {
-    double sum = a.entries[a.rows * i] * v[0];
-    for (int k = 1; k < a.rows; ++k) sum += a.entries[a.rows * i + k] * v[k];
-    out[i] = sum;
-  }
-}
-
-void matrix_times_matrix(const MatrixOperand& a, const MatrixOperand& b, double* out) {
-  const int n = a.rows;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      double sum = a.entries[n * i] * b.entries[j];
-      for (int k = 1; k < n; ++k) sum += a.entries[n * i + k] * b.entries[n * k + j];
-      out[n * i + j] = sum;
-    }
   }
 }
 
@@ -160,10 +118,8 @@ void TreeWalker::product(const Expr& expr, double* out) {
     return;
   }
   double a[kMaxComponents], b[kMaxComponents];
-  const MatrixOperand matrix(left.type.kind, view(left, a));
-  const double* other = view(right, b);
-  if (is_vector(right.type)) return matrix_times_vector(matrix, other, out);
-  matrix_times_matrix(matrix, MatrixOperand(right.type.kind, other), out);
+  const double* matrix = view(left, a);
+  multiply(left.type.kind, matrix, right.type.kind, view(right, b), out);
 }
 
 void TreeWalker::convert(const Expr& expr, double* out) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 #include <utility>
 
 #include "engine/tree_walker.h"
@@ -51,40 +50,9 @@ void TreeWalker::quotient(const Expr& expr, std::vector<DartId>& out) {
   DartId at;
   if (!live_dart(*expr.args[0], at)) return;
   gmap::for_each_dart(state_.map, expr.orbit, at, [&](DartId d) { out.push_back(d); });
-  if (expr.orbit.contains(expr.orbit2)) {
-    inner_quotient(expr.orbit2, out);
-    std::sort(out.begin(), out.end());
-  } else {
-    std::sort(out.begin(), out.end());
-    outer_quotient(expr.orbit2, out);
-  }
-}
-
-/// Inner orbits that lie inside the outer one: keeps the darts that are the smallest of theirs.
-void TreeWalker::inner_quotient(OrbitType inner, std::vector<DartId>& darts) const {
-  const gmap::OrbitIndex* index = state_.store.find_index(inner);
-  std::erase_if(darts, [&](DartId d) {
-    if (index != nullptr) return index->smallest(index->row(d)) != d;
-    return gmap::smallest_dart(state_.map, inner, d) != d;
-  });
-}
-
-/// Inner orbits that reach out of the outer one: two darts fall together when they share the whole
-/// inner orbit, though the way from one to the other may leave the outer one. Takes ascending darts.
-void TreeWalker::outer_quotient(OrbitType inner, std::vector<DartId>& darts) {
-  const gmap::OrbitIndex* index = state_.store.find_index(inner);
-  constexpr std::size_t kFew = 64;  // orbits among which a search goes from one to the next
-  std::unordered_set<std::uint32_t> many;
-  met_.clear();
-  std::erase_if(darts, [&](DartId d) {
-    const std::uint32_t orbit = index != nullptr
-                                    ? index->row(d)
-                                    : types::index(gmap::smallest_dart(state_.map, inner, d));
-    if (std::find(met_.begin(), met_.end(), orbit) != met_.end()) return true;
-    if (met_.size() == kFew) return !many.insert(orbit).second;
-    met_.push_back(orbit);
-    return false;
-  });
+  std::sort(out.begin(), out.end());
+  filter_.start(expr.orbit, expr.orbit2);
+  std::erase_if(out, [&](DartId d) { return !filter_.keeps(d); });
 }
 
 void TreeWalker::polygon(const Expr& expr, std::vector<DartId>& out) {

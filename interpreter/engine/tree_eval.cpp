@@ -11,11 +11,6 @@ TreeEvaluator::~TreeEvaluator() = default;
 bool TreeEvaluator::failed() const { return walker_->failed(); }
 EvalFailure TreeEvaluator::take_failure() { return walker_->take_failure(); }
 
-TreeEvaluator::Keeping::Keeping(TreeEvaluator& evaluator) : walker_(*evaluator.walker_) {
-  walker_.keep_values(true);
-}
-TreeEvaluator::Keeping::~Keeping() { walker_.keep_values(false); }
-
 bool TreeEvaluator::evaluate(const types::Expr& expr, Frame& frame, std::span<double> out) {
   const TreeWalker::Entry entry(*walker_, frame);
   GMSIM_CHECK(out.size() == number_count(expr.type), "room for another number of components");

@@ -35,19 +35,6 @@ class TreeEvaluator {
   TreeEvaluator(const TreeEvaluator&) = delete;
   TreeEvaluator& operator=(const TreeEvaluator&) = delete;
 
-  /// While one lives, map and values stay as they are, and what the expressions of one rule share
-  /// (compile/shared_values.h) is computed once. Does not nest.
-  class Keeping {
-   public:
-    explicit Keeping(TreeEvaluator& evaluator);
-    ~Keeping();
-    Keeping(const Keeping&) = delete;
-    Keeping& operator=(const Keeping&) = delete;
-
-   private:
-    TreeWalker& walker_;
-  };
-
   /// A storable value, component_count(expr.type) doubles. False after a failure.
   bool evaluate(const types::Expr& expr, Frame& frame, std::span<double> out);
   bool evaluate_bool(const types::Expr& expr, Frame& frame, bool& out);

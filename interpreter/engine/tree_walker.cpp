@@ -115,38 +115,6 @@ const Expr& TreeWalker::branch(const Expr& choice) {
   return truth(*choice.args[0]) ? *choice.args[1] : *choice.args[2];
 }
 
-// ---- values that are kept ------------------------------------------------------------------------
-
-void TreeWalker::keep_values(bool keep) {
-  keeps_ = keep;
-  if (keep) kept_.clear();
-}
-
-/// A value that belongs to the whole orbit over which it is folded.
-void TreeWalker::shared_fold(const Expr& expr, double* out) {
-  const Expr& collection = *expr.args[0];
-  const std::uint32_t function = static_cast<std::uint32_t>(expr.number);
-  const std::uint32_t count = number_count(expr.type);
-  DartId at;
-  if (!live_dart(*collection.args[0], at)) return void(std::fill_n(out, count, 0.0));
-  if (const double* value = kept_.find(function, at)) return void(std::copy_n(value, count, out));
-  fold(expr, out);
-  if (failed()) return;
-  const std::uint32_t value = kept_.add({out, count});
-  gmap::for_each_dart(state_.map, collection.orbit, at,
-                      [&](DartId d) { kept_.set(function, d, value); });
-}
-
-/// A value that depends on the bound dart alone.
-void TreeWalker::shared_let(const Expr& expr, double* out) {
-  const std::uint32_t function = static_cast<std::uint32_t>(expr.number);
-  const std::uint32_t count = number_count(expr.type);
-  const DartId at = dart(*expr.args[0]);
-  if (const double* value = kept_.find(function, at)) return void(std::copy_n(value, count, out));
-  with_bound(expr, [&] { numbers(*expr.args[1], out); });
-  if (!failed()) kept_.set(function, at, kept_.add({out, count}));
-}
-
 // ---- values -------------------------------------------------------------------------------------
 
 void TreeWalker::derived(EmbeddingId id, DartId dart, double* out) {
@@ -161,20 +129,11 @@ void TreeWalker::derived(EmbeddingId id, DartId dart, double* out) {
   --derived_depth_;
 }
 
-void TreeWalker::list_sources() {
-  if (!sources_.empty() && listed_ == state_.store.column_count()) return;
-  sources_.assign(state_.program.schema.size(), Source{});
-  for (const EmbeddingId id : state_.store.embeddings()) {
-    sources_[types::index(id)] = {&state_.store.column(id), &state_.store.index_of(id)};
-  }
-  listed_ = state_.store.column_count();
-}
-
 void TreeWalker::read(EmbeddingId id, DartId dart, double* out, const Expr* reader) {
   const gmap::EmbeddingDecl& decl = state_.program.schema[id];
   if (decl.kind == gmap::EmbeddingKind::Derived && decl.derivation) return derived(id, dart, out);
-  std::span<const double> value = stored(id, dart);
-  if (value.empty() && sources_[types::index(id)].column == nullptr && decl.default_value) {
+  std::span<const double> value = stored_.at(id, dart);
+  if (value.empty() && !stored_.in_use(id) && decl.default_value) {
     value = decl.default_value->data;
   }
   if (!value.empty()) {
@@ -191,7 +150,7 @@ bool TreeWalker::has(const Expr& expr) {
   const gmap::EmbeddingDecl& decl = state_.program.schema[expr.embedding];
   if (decl.kind == gmap::EmbeddingKind::Derived) return decl.derivation != nullptr;
   if (!state_.store.in_use(expr.embedding)) return decl.default_value.has_value();
-  const std::span<const double> value = stored(expr.embedding, at);
+  const std::span<const double> value = stored_.at(expr.embedding, at);
   if (value.empty()) return false;
   return decl.role != gmap::EmbeddingRole::Presence || value[0] != 0.0;
 }
@@ -208,7 +167,7 @@ const double* TreeWalker::view(const Expr& expr, double* scratch) {
     case ExprKind::Embedding: {
       DartId at;
       if (!live_dart(*expr.args[0], at)) break;
-      const std::span<const double> value = stored(expr.embedding, at);
+      const std::span<const double> value = stored_.at(expr.embedding, at);
       if (!value.empty()) return value.data();
       break;
     }
@@ -325,7 +284,6 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
       return;
     }
     case ExprKind::Let:
-      if (keeps_ && expr.number != 0) return shared_let(expr, out);
       return with_bound(expr, [&] { numbers(*expr.args[1], out); });
     case ExprKind::Embedding: {
       DartId at;
@@ -338,7 +296,7 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
     case ExprKind::Frozen:
       return numbers(*expr.args[0], out);
     case ExprKind::Fold:
-      return keeps_ && expr.number != 0 ? shared_fold(expr, out) : fold(expr, out);
+      return fold(expr, out);
     case ExprKind::Convert:
       return convert(expr, out);
     case ExprKind::Call:

@@ -10,8 +10,9 @@
 
 #include "engine/dart_pool.h"
 #include "engine/frame.h"
-#include "engine/kept_values.h"
+#include "engine/quotient_filter.h"
 #include "engine/state.h"
+#include "engine/stored_values.h"
 #include "engine/tree_eval.h"
 
 namespace gmsim::engine {
@@ -29,13 +30,13 @@ namespace gmsim::engine {
 /// something harmless, loops stop, and the first failure is kept.
 class TreeWalker {
  public:
-  explicit TreeWalker(const State& state) : state_(state) {}
+  explicit TreeWalker(const State& state) : state_(state), stored_(state), filter_(state) {}
 
   /// Enters an expression with the locals of `frame`.
   class Entry {
    public:
     Entry(TreeWalker& walker, Frame& frame) : walker_(walker), outer_(walker.frame_) {
-      if (outer_ == nullptr) walker.list_sources();
+      if (outer_ == nullptr) walker.stored_.update();
       walker.frame_ = &frame;
     }
     ~Entry() { walker_.frame_ = outer_; }
@@ -54,28 +55,11 @@ class TreeWalker {
   void assign(const types::Expr& expr, Slot slot);
   void read(EmbeddingId id, DartId dart, double* out, const types::Expr* reader);
 
-  /// Keep the values that expressions share, from now on and until false is said.
-  void keep_values(bool keep);
-
   [[nodiscard]] bool failed() const { return failure_.has_value(); }
   [[nodiscard]] EvalFailure take_failure();
 
  private:
   using Expr = types::Expr;
-
-  /// Where the stored values of an embedding are; null pointers when it is not in use.
-  struct Source {
-    const gmap::EmbeddingColumn* column = nullptr;
-    const gmap::OrbitIndex* index = nullptr;
-  };
-  void list_sources();
-  /// The stored value at a dart; empty when it has none.
-  [[nodiscard]] std::span<const double> stored(EmbeddingId id, DartId dart) const {
-    const Source& source = sources_[types::index(id)];
-    if (source.column == nullptr) return {};
-    const Row row = source.index->row(dart);
-    return source.column->has(row) ? source.column->get(row) : std::span<const double>{};
-  }
 
   // tree_walker.cpp
   void fail(support::DiagnosticKind kind, const Expr& where, std::string message,
@@ -106,15 +90,11 @@ class TreeWalker {
 
   // tree_collections.cpp
   void quotient(const Expr& expr, std::vector<DartId>& out);
-  void inner_quotient(OrbitType inner, std::vector<DartId>& darts) const;
-  void outer_quotient(OrbitType inner, std::vector<DartId>& darts);
   void polygon(const Expr& expr, std::vector<DartId>& out);
   /// Calls body() with the fold's variable set to each member; stops when body returns false.
   template <typename Body>
   void each(const Expr& fold, const Body& body);
   void fold(const Expr& expr, double* out);
-  void shared_fold(const Expr& expr, double* out);
-  void shared_let(const Expr& expr, double* out);
   void fold_sum(const Expr& expr, double* out);
   void fold_extreme(const Expr& expr, double* out);
   [[nodiscard]] double fold_truth(const Expr& expr);
@@ -126,15 +106,12 @@ class TreeWalker {
   void fail_empty(const Expr& expr);
 
   const State& state_;
-  std::vector<Source> sources_;  // by EmbeddingId
-  std::size_t listed_ = 0;
-  std::vector<std::uint32_t> met_;  // orbits that a quotient has met
+  StoredValues stored_;
+  QuotientFilter filter_;
   Frame* frame_ = nullptr;
   std::deque<Frame> derived_frames_;
   std::size_t derived_depth_ = 0;
   DartPool pool_;
-  KeptValues kept_;
-  bool keeps_ = false;
   std::optional<EvalFailure> failure_;
 };
 

@@ -31,7 +31,7 @@ enum class Slot : std::uint32_t {};
 enum class ExprKind : std::uint8_t {
   Literal,       ///< `value`
   Local,         ///< `slot`: a node or bound dart, a parameter, a let
-  Let,           ///< (bound, body) `slot`: body with slot = bound; `number`: compile/shared_values.h
+  Let,           ///< (bound, body) `slot`: body with slot = bound
   // darts
   Alpha,         ///< (dart) `number`: link dimension
   Free,          ///< (dart) `number`: is this link free
@@ -49,7 +49,7 @@ enum class ExprKind : std::uint8_t {
   Range,         ///< (lo, hi): lo <= i < hi
   Forces,        ///< (dart) `orbit`: atomic forces stored in sub-orbits
   ForceOn,       ///< (dart) `orbit`, `interaction` if `number` is 1: sum of internal atomic forces
-  Fold,          ///< (collection, body [, result]) `fold`, `slot`: the variable; `number`: as Let
+  Fold,          ///< (collection, body [, result]) `fold`, `slot`: the variable
   // arithmetic
   Neg, Add, Sub, Mul, Div, Pow,
   Less, LessEqual, Greater, GreaterEqual, Equal, NotEqual,

@@ -22,7 +22,6 @@ using types::DartId;
 
 namespace {
 
-constexpr std::uint32_t kSide = 300;
 constexpr double kBar = 150.0;    // ns per dart
 constexpr double kLocalBar = 3.0; // one cut at 10^6 darts against one at 10^3
 
@@ -203,6 +202,7 @@ bool report_local(const tests::RuleBook& rules) {
 int main(int argc, char** argv) {
   bool check = false, with_all_data = true;
   int repetitions = 3;
+  std::uint32_t side = 300;
   std::string chosen;
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
@@ -212,27 +212,30 @@ int main(int argc, char** argv) {
       with_all_data = false;
     } else if (argument == "--repetitions" && i + 1 < argc) {
       repetitions = std::max(1, std::atoi(argv[++i]));
+    } else if (argument == "--side" && i + 1 < argc) {
+      side = static_cast<std::uint32_t>(std::max(2, std::atoi(argv[++i])));
     } else if (argument == "--job" && i + 1 < argc) {
       chosen = argv[++i];
     } else {
-      fmt::print("usage: bench_rewrite [--check] [--positions] [--repetitions N] [--job NAME]\n"
+      fmt::print("usage: bench_rewrite [--check] [--positions] [--repetitions N] [--job NAME] [--side N]\n"
                  "  --check      exit with 1 when a bar is missed with positions only\n"
                  "  --positions  leave out the runs with all data of particles.rule\n"
-                 "  --job NAME   only the jobs whose name begins with NAME\n");
+                 "  --job NAME   only the jobs whose name begins with NAME\n"
+                 "  --side N     a grid of N by N patches (300)\n");
       return argument == "--help" || argument == "-h" ? 0 : 2;
     }
   }
   keep_memory();
   const tests::RuleBook rules("", 2, true);
   bool passed = true;
-  for (auto [name, cells] : {std::pair{"quads 300 x 300", gmap::GridCells::Quads},
-                             std::pair{"triangles 300 x 300", gmap::GridCells::Triangles}}) {
-    const gmap::Mesh mesh = gmap::grid(kSide, kSide, 1.0, 1.0, cells);
+  for (auto [name, cells] : {std::pair{"quads", gmap::GridCells::Quads},
+                             std::pair{"triangles", gmap::GridCells::Triangles}}) {
+    const gmap::Mesh mesh = gmap::grid(side, side, 1.0, 1.0, cells);
     for (const bool all_data : {false, true}) {
       if (all_data && !with_all_data) continue;
       Jobs jobs(rules, mesh, all_data);
       for (int k = 0; k < repetitions; ++k) jobs.repeat(chosen);
-      const bool within = jobs.report(name);
+      const bool within = jobs.report(fmt::format("{0} {1} x {1}", name, side));
       passed = passed && (within || all_data);
     }
   }
