@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rewriter: darts and links of a rule's right side.
+#include <algorithm>
+
 #include "engine/rewriter_implementation.h"
 
 namespace gmsim::engine {
@@ -55,7 +57,10 @@ void Rewriter::Implementation::remove_darts() {
 void Rewriter::Implementation::append(const std::vector<RowPlan::Place>& places,
                                       std::vector<DartId>& out) const {
   const DartId* const darts = match_.darts.data();
-  for (const RowPlan::Place place : places) out.push_back(darts[place]);
+  const std::size_t begin = out.size();
+  out.resize(begin + places.size());
+  std::transform(places.begin(), places.end(), out.begin() + static_cast<std::ptrdiff_t>(begin),
+                 [&](RowPlan::Place place) { return darts[place]; });
 }
 
 /// The darts at the places of the row table, in memory that they do not shrink.

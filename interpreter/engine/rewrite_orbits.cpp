@@ -24,15 +24,13 @@ void Rewriter::Implementation::repair_orbits(const compile::RewritePlan& plan) {
     if (classes != nullptr ? classes->classes.empty() : !plan.affects(index.type())) continue;
     OrbitRepair& repair = effects_->repair(index.type());
     changed_.emplace_back(index, repair);
-    repair.swap_space(repair_space_);
     if (classes != nullptr) {
       const auto number = static_cast<std::size_t>(classes - plan.orbits.data());
       follow_classes(row_plan_->orbits[number], index, repair);
     } else {
       list_touched(plan, index.type());
-      index.repair(state.map, touched_, repair, journal());
+      index.repair(state.map, touched_, {}, repair, repair_space_, journal());
     }
-    repair.swap_space(repair_space_);
   }
   // Only now, because a new entry moves the others.
   for (ChangedOrbits& changed : changed_) changed.repair = effects_->find(changed.index->type());
@@ -53,7 +51,7 @@ void Rewriter::Implementation::follow_classes(const RowPlan::Orbits& orbits, Orb
   const std::size_t first = repair.orbits.size();
   const std::span<const DartId> touched = gather(orbits.open, touched_);
   const std::span<const DartId> whole = gather(orbits.whole, whole_);
-  index.repair(state.map, touched, {whole, orbits.whole_ends}, repair, journal());
+  index.repair(state.map, touched, {whole, orbits.whole_ends}, repair, repair_space_, journal());
   if (orbits.kept.empty()) return;
   enter_kept(orbits, index);
   repair.visited_darts += orbits.kept_visits;
@@ -64,7 +62,7 @@ void Rewriter::Implementation::enter_kept(const RowPlan::Orbits& orbits, OrbitIn
   index.grow(state.map, journal());
   const DartId* const darts = match_.darts.data();
   for (const RowPlan::Link link : orbits.entered) {
-    index.add_dart(darts[link.from], index.row(darts[link.to]), journal());
+    index.add_dart(darts[link.from], index.row(darts[link.to]));  // new: needs no record
   }
   kept_rows_.clear();
   for (const RowPlan::Place place : orbits.kept) kept_rows_.push_back(index.row(darts[place]));

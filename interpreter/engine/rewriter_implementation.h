@@ -97,7 +97,7 @@ class Rewriter::Implementation {
   std::vector<double> numbers_;
   std::vector<DartId> touched_;
   std::vector<ChangedOrbits> changed_;
-  gmap::OrbitRepair repair_space_;            // of all repairs
+  gmap::RepairSpace repair_space_;            // of all repairs
   std::vector<Row> kept_rows_;                // of orbits that created darts entered
   std::vector<DartId> whole_;                 // darts of whole orbits, one orbit after the other
   Effects* effects_ = nullptr;                // of the caller, who may have had others

@@ -17,8 +17,8 @@ class StackMemory {
     std::size_t used = 0;
   };
   [[nodiscard]] T* allocate(std::size_t count) {
-    if (chunk_ >= chunks_.size() || used_ + count > chunks_[chunk_].size) next_chunk(count);
-    T* block = chunks_[chunk_].data.get() + used_;
+    if (used_ + count > size_) next_chunk(count);
+    T* block = begin_ + used_;
     used_ += count;
     return block;
   }
@@ -26,6 +26,7 @@ class StackMemory {
   void release(Mark mark) {
     chunk_ = mark.chunk;
     used_ = mark.used;
+    enter();
   }
 
  private:
@@ -33,20 +34,29 @@ class StackMemory {
     std::unique_ptr<T[]> data;
     std::size_t size = 0;
   };
-  void next_chunk(std::size_t count) {
+  [[gnu::noinline]] void next_chunk(std::size_t count) {
     constexpr std::size_t kChunk = 1024;
     while (chunk_ < chunks_.size() && used_ + count > chunks_[chunk_].size) {
       ++chunk_;
       used_ = 0;
     }
-    if (chunk_ < chunks_.size()) return;
-    const std::size_t size = std::max(kChunk, count);
-    chunks_.push_back({std::make_unique<T[]>(size), size});
+    if (chunk_ == chunks_.size()) {
+      const std::size_t size = std::max(kChunk, count);
+      chunks_.push_back({std::make_unique<T[]>(size), size});
+    }
+    enter();
+  }
+  void enter() {
+    if (chunks_.empty()) return;
+    begin_ = chunks_[chunk_].data.get();
+    size_ = chunks_[chunk_].size;
   }
 
   std::vector<Chunk> chunks_;
   std::size_t chunk_ = 0;
   std::size_t used_ = 0;
+  T* begin_ = nullptr;  // of the chunk at hand
+  std::size_t size_ = 0;
 };
 
 }  // namespace gmsim::engine

@@ -22,22 +22,26 @@ class StoredValues {
     }
     listed_ = state_.store.column_count();
   }
-  [[nodiscard]] bool in_use(EmbeddingId id) const {
-    return sources_[types::index(id)].column != nullptr;
-  }
-  /// The stored value at a dart; empty when it has none.
-  [[nodiscard]] std::span<const double> at(EmbeddingId id, DartId dart) const {
-    const Source& source = sources_[types::index(id)];
-    if (source.column == nullptr) return {};
-    const Row row = source.index->row(dart);
-    return source.column->has(row) ? source.column->get(row) : std::span<const double>{};
-  }
-
- private:
   struct Source {
     const gmap::EmbeddingColumn* column = nullptr;  // null: not in use
     const gmap::OrbitIndex* index = nullptr;
+
+    /// The stored value at a dart; empty when it has none.
+    [[nodiscard]] std::span<const double> at(DartId dart) const {
+      if (column == nullptr) return {};
+      const Row row = index->row(dart);
+      return column->has(row) ? column->get(row) : std::span<const double>{};
+    }
   };
+  [[nodiscard]] const Source& operator[](EmbeddingId id) const { return sources_[types::index(id)]; }
+  [[nodiscard]] bool in_use(EmbeddingId id) const {
+    return sources_[types::index(id)].column != nullptr;
+  }
+  [[nodiscard]] std::span<const double> at(EmbeddingId id, DartId dart) const {
+    return (*this)[id].at(dart);
+  }
+
+ private:
   const State& state_;
   std::vector<Source> sources_;  // by EmbeddingId
   std::size_t listed_ = 0;

@@ -304,8 +304,9 @@ void ValueMachine::spread(const Instruction& by, const T* from, T* out) const {
 
 bool ValueMachine::read(const Instruction& by, double* out) const {
   const DartId* const at = darts(by.args[0]);
+  const StoredValues::Source source = stored_[by.embedding];
   for (std::uint32_t lane = 0; lane < lanes_[by.domain].count; ++lane, out += by.count) {
-    const std::span<const double> value = stored_.at(by.embedding, at[lane]);
+    const std::span<const double> value = source.at(at[lane]);
     if (value.empty()) return false;
     copy_components(value.data(), by.count, out);
   }

@@ -5,34 +5,6 @@
 
 namespace gmsim::gmap {
 
-struct Journal::MapLog {
-  struct Link {
-    DartId dart;
-    DartId old;
-    std::uint8_t dimension;
-  };
-  bool active = false;
-  std::uint32_t dart_end = 0, alive = 0;
-  std::vector<Link> links = {};
-};
-
-struct Journal::IndexLog {
-  struct RowOfDart {
-    DartId dart;
-    Row old;
-  };
-  struct SmallestOfRow {
-    Row row;
-    DartId old;
-  };
-  OrbitIndex* index = nullptr;
-  bool active = false;
-  std::size_t dart_end = 0;
-  Row row_end = 0, alive = 0;
-  std::vector<RowOfDart> rows = {};
-  std::vector<SmallestOfRow> smallest = {};
-};
-
 struct Journal::ColumnLog {
   struct Value {
     Row row;
@@ -49,60 +21,38 @@ Journal::Journal() = default;
 Journal::~Journal() = default;
 
 void Journal::begin(const GMap& map) {
-  if (map_.empty()) map_.emplace_back();
-  MapLog& log = map_.front();
-  if (log.active) return;
-  log.active = true;
-  log.dart_end = map.dart_end();
-  log.alive = map.dart_count();
-}
-
-bool Journal::is_new(DartId d) const {
-  return !map_.empty() && map_.front().active && gmap::index(d) >= map_.front().dart_end;
-}
-
-void Journal::record(const GMap& map, int i, DartId d) {
-  begin(map);
-  MapLog& log = map_.front();
-  if (gmap::index(d) >= log.dart_end) return;
-  log.links.push_back({d, map.alpha(i, d), static_cast<std::uint8_t>(i)});
+  if (map_.active) return;
+  map_.active = true;
+  map_.dart_end = map.dart_end();
+  map_.alive = map.dart_count();
 }
 
 Journal::IndexLog& Journal::log(OrbitIndex& index) {
   if (last_index_ < indices_.size()) {  // one index is repaired after the other
     IndexLog& last = indices_[last_index_];
-    if (last.index == &index && last.active) return last;
+    if (last.index_ == &index && last.active_) return last;
   }
   auto found = std::find_if(indices_.begin(), indices_.end(),
-                            [&](const IndexLog& log) { return log.index == &index; });
-  if (found == indices_.end()) found = indices_.insert(indices_.end(), IndexLog{&index});
+                            [&](const IndexLog& log) { return log.index_ == &index; });
+  if (found == indices_.end()) found = indices_.insert(indices_.end(), IndexLog{index});
   last_index_ = static_cast<std::size_t>(found - indices_.begin());
-  if (found->active) return *found;
-  found->active = true;
-  found->dart_end = index.rows_.size();
-  found->row_end = index.row_end();
-  found->alive = index.orbit_count();
+  if (found->active_) return *found;
+  found->active_ = true;
+  found->dart_end_ = index.rows_.size();
+  found->row_end_ = index.row_end();
+  found->alive_ = index.orbit_count();
   return *found;
 }
 
-void Journal::begin(OrbitIndex& index) {
-  log(index);
-}
-
-void Journal::record_row(OrbitIndex& index, DartId d, Row old) {
-  IndexLog& entry = log(index);
-  if (gmap::index(d) < entry.dart_end) entry.rows.push_back({d, old});
-}
-
-void Journal::record_smallest(OrbitIndex& index, Row row, DartId old) {
-  IndexLog& entry = log(index);
-  if (row < entry.row_end) entry.smallest.push_back({row, old});
-}
-
 Journal::ColumnLog& Journal::log(EmbeddingColumn& column) {
+  if (last_column_ < columns_.size()) {
+    ColumnLog& last = columns_[last_column_];
+    if (last.column == &column && last.active) return last;
+  }
   auto found = std::find_if(columns_.begin(), columns_.end(),
                             [&](const ColumnLog& log) { return log.column == &column; });
   if (found == columns_.end()) found = columns_.insert(columns_.end(), ColumnLog{&column});
+  last_column_ = static_cast<std::size_t>(found - columns_.begin());
   if (found->active) return *found;
   found->active = true;
   found->row_end = column.row_end();
@@ -122,26 +72,25 @@ void Journal::record(EmbeddingColumn& column, Row row) {
 }
 
 void Journal::roll_back(GMap& map, EmbeddingStore& store) {
-  for (const MapLog& log : map_) {
-    if (!log.active) continue;
-    for (auto link = log.links.rbegin(); link != log.links.rend(); ++link) {
+  if (map_.active) {
+    for (auto link = map_.links.rbegin(); link != map_.links.rend(); ++link) {
       map.alpha_[link->dimension][gmap::index(link->dart)] = link->old;
     }
-    for (int i = 0; i <= map.dimension(); ++i) map.alpha_[i].resize(log.dart_end);
-    map.alive_ = log.alive;
+    for (int i = 0; i <= map.dimension(); ++i) map.alpha_[i].resize(map_.dart_end);
+    map.alive_ = map_.alive;
   }
   for (const IndexLog& log : indices_) {
-    if (!log.active) continue;
-    OrbitIndex& index = *log.index;
-    for (auto row = log.rows.rbegin(); row != log.rows.rend(); ++row) {
+    if (!log.active_) continue;
+    OrbitIndex& index = *log.index_;
+    for (auto row = log.rows_.rbegin(); row != log.rows_.rend(); ++row) {
       index.rows_[gmap::index(row->dart)] = row->old;
     }
-    for (auto entry = log.smallest.rbegin(); entry != log.smallest.rend(); ++entry) {
+    for (auto entry = log.smallest_.rbegin(); entry != log.smallest_.rend(); ++entry) {
       index.smallest_[entry->row] = entry->old;
     }
-    index.rows_.resize(log.dart_end);
-    index.smallest_.resize(log.row_end);
-    index.alive_ = log.alive;
+    index.rows_.resize(log.dart_end_);
+    index.smallest_.resize(log.row_end_);
+    index.alive_ = log.alive_;
   }
   for (const ColumnLog& log : columns_) {
     if (!log.active) continue;
@@ -159,14 +108,12 @@ void Journal::roll_back(GMap& map, EmbeddingStore& store) {
 }
 
 void Journal::commit() {
-  for (MapLog& log : map_) {
-    log.active = false;
-    log.links.clear();
-  }
+  map_.active = false;
+  map_.links.clear();
   for (IndexLog& log : indices_) {
-    log.active = false;
-    log.rows.clear();
-    log.smallest.clear();
+    log.active_ = false;
+    log.rows_.clear();
+    log.smallest_.clear();
   }
   for (ColumnLog& log : columns_) {
     log.active = false;
@@ -176,9 +123,8 @@ void Journal::commit() {
 }
 
 std::size_t Journal::size() const {
-  std::size_t count = 0;
-  for (const MapLog& log : map_) count += log.links.size();
-  for (const IndexLog& log : indices_) count += log.rows.size() + log.smallest.size();
+  std::size_t count = map_.links.size();
+  for (const IndexLog& log : indices_) count += log.rows_.size() + log.smallest_.size();
   for (const ColumnLog& log : columns_) count += log.values.size();
   return count;
 }

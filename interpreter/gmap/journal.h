@@ -33,28 +33,70 @@ class Journal {
   [[nodiscard]] std::size_t size() const;
 
   /// True for a dart that undoing cuts off.
-  [[nodiscard]] bool is_new(DartId d) const;
+  [[nodiscard]] bool is_new(DartId d) const {
+    return map_.active && gmap::index(d) >= map_.dart_end;
+  }
 
-  // Called just before the change. `begin` notes the sizes, once.
+  /// The changes of one index.
+  class IndexLog {
+   public:
+    explicit IndexLog(OrbitIndex& index) : index_(&index) {}
+    void record_row(DartId d, Row old) {
+      if (gmap::index(d) < dart_end_) rows_.push_back({d, old});
+    }
+    void record_smallest(Row row, DartId old) {
+      if (row < row_end_) smallest_.push_back({row, old});
+    }
+
+   private:
+    friend class Journal;
+    struct RowOfDart {
+      DartId dart;
+      Row old;
+    };
+    struct SmallestOfRow {
+      Row row;
+      DartId old;
+    };
+    OrbitIndex* index_;
+    bool active_ = false;
+    std::size_t dart_end_ = 0;
+    Row row_end_ = 0, alive_ = 0;
+    std::vector<RowOfDart> rows_;
+    std::vector<SmallestOfRow> smallest_;
+  };
+
+  // Called just before the change. `begin` and `log` note the sizes, once.
   void begin(const GMap& map);
-  void record(const GMap& map, int i, DartId d);
-  void begin(OrbitIndex& index);
-  void record_row(OrbitIndex& index, DartId d, Row old);
-  void record_smallest(OrbitIndex& index, Row row, DartId old);
+  void record(const GMap& map, int i, DartId d) {
+    if (!map_.active) begin(map);
+    if (gmap::index(d) >= map_.dart_end) return;
+    map_.links.push_back({d, map.alpha(i, d), static_cast<std::uint8_t>(i)});
+  }
+  /// Valid until the next one is asked for.
+  IndexLog& log(OrbitIndex& index);
   void begin(EmbeddingColumn& column);
   void record(EmbeddingColumn& column, Row row);
 
  private:
-  struct MapLog;
-  struct IndexLog;
+  struct MapLog {
+    struct Link {
+      DartId dart;
+      DartId old;
+      std::uint8_t dimension;
+    };
+    bool active = false;
+    std::uint32_t dart_end = 0, alive = 0;
+    std::vector<Link> links = {};
+  };
   struct ColumnLog;
-  IndexLog& log(OrbitIndex& index);
   ColumnLog& log(EmbeddingColumn& column);
 
-  std::vector<MapLog> map_;  // none or one
+  MapLog map_;
   std::vector<IndexLog> indices_;
   std::size_t last_index_ = 0;  // the one used last
   std::vector<ColumnLog> columns_;
+  std::size_t last_column_ = 0;
 };
 
 }  // namespace gmsim::gmap

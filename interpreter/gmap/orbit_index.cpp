@@ -84,7 +84,7 @@ Row OrbitIndex::merge_rows(const GMap& map, DartId a, DartId b, Journal* journal
 
 /// Walks from d through the darts with row `from`.
 void OrbitIndex::rename(const GMap& map, DartId d, Row from, Row to, Journal* journal) {
-  if (journal != nullptr) journal->record_smallest(*this, from, smallest_[from]);
+  if (journal != nullptr) journal->log(*this).record_smallest(from, smallest_[from]);
   const detail::OrbitLinks links(map, type_);
   std::vector<DartId> queue{d};
   add_dart(d, to, journal);
@@ -99,7 +99,7 @@ void OrbitIndex::rename(const GMap& map, DartId d, Row from, Row to, Journal* jo
 }
 
 void OrbitIndex::grow(const GMap& map, Journal* journal) {
-  if (journal != nullptr) journal->begin(*this);
+  if (journal != nullptr) journal->log(*this);
   rows_.resize(map.dart_end(), kNoRow);
 }
 
@@ -109,7 +109,7 @@ void OrbitIndex::reserve(std::uint32_t darts, Row orbits) {
 }
 
 void OrbitIndex::record_row(DartId d, Journal& journal) {
-  journal.record_row(*this, d, row(d));
+  journal.log(*this).record_row(d, row(d));
 }
 
 std::size_t OrbitIndex::memory_bytes() const {

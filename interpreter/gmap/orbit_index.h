@@ -24,25 +24,8 @@ struct OrbitChange {
   std::uint32_t sources_count = 0;  ///< that its kept darts had; 0 for a created orbit
 };
 
-/// What repairs did, and their work space: one object used again and again allocates nothing.
-struct OrbitRepair {
-  std::vector<OrbitChange> orbits;  ///< every orbit that holds a touched dart, ascending `smallest`
-  std::vector<Row> sources;         ///< ascending within an orbit
-  std::vector<Row> removed;   ///< rows whose orbit is gone (all darts removed, or merged away)
-  std::uint32_t created = 0;  ///< orbits of new darts only
-  std::uint32_t split = 0;    ///< orbits that had to leave their row to another part of it
-  std::uint32_t merged = 0;   ///< orbits with several sources
-  std::uint64_t visited_darts = 0;  ///< work done, for `--profile`
-  void clear();
-  /// Exchanges the work space, not what was done: for repairs that are told apart but come in turn.
-  void swap_space(OrbitRepair& other);
-
-  /// The rows before the change that an orbit's darts had.
-  [[nodiscard]] std::span<const Row> sources_of(const OrbitChange& orbit) const {
-    return {sources.data() + orbit.sources_begin, orbit.sources_count};
-  }
-
- private:
+/// Work space of repairs.
+class RepairSpace {
   friend class OrbitRepairer;
   /// A walked orbit that has no row yet.
   struct Part {
@@ -54,6 +37,27 @@ struct OrbitRepair {
   std::vector<DartId> queue_;
   std::vector<Row> old_rows_;    // as long as `darts_`
   std::vector<Row> open_, new_rows_;
+};
+
+/// What repairs did, and their work space: one object used again and again allocates nothing.
+struct OrbitRepair {
+  std::vector<OrbitChange> orbits;  ///< every orbit that holds a touched dart, ascending `smallest`
+  std::vector<Row> sources;         ///< ascending within an orbit
+  std::vector<Row> removed;   ///< rows whose orbit is gone (all darts removed, or merged away)
+  std::uint32_t created = 0;  ///< orbits of new darts only
+  std::uint32_t split = 0;    ///< orbits that had to leave their row to another part of it
+  std::uint32_t merged = 0;   ///< orbits with several sources
+  std::uint64_t visited_darts = 0;  ///< work done, for `--profile`
+  void clear();
+
+  /// The rows before the change that an orbit's darts had.
+  [[nodiscard]] std::span<const Row> sources_of(const OrbitChange& orbit) const {
+    return {sources.data() + orbit.sources_begin, orbit.sources_count};
+  }
+
+ private:
+  friend class OrbitIndex;
+  RepairSpace space_;
 };
 
 /// Whole orbits that a caller knows: one after the other in `darts`, each up to one of `ends`.
@@ -87,11 +91,11 @@ class OrbitIndex {
   /// changed links needs no repair unless darts were created or removed.
   void repair(const GMap& map, std::span<const DartId> touched, OrbitRepair& repair,
               Journal* journal = nullptr) {
-    this->repair(map, touched, {}, repair, journal);
+    this->repair(map, touched, {}, repair, repair.space_, journal);
   }
   /// The same; orbits that are known as they are now need not be walked, nor be among the touched.
   void repair(const GMap& map, std::span<const DartId> touched, const KnownOrbits& known,
-              OrbitRepair& repair, Journal* journal = nullptr);
+              OrbitRepair& repair, RepairSpace& space, Journal* journal = nullptr);
 
   // For rewrites that know what becomes of an orbit, in place of a repair.
 

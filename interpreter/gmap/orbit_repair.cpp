@@ -83,8 +83,11 @@ class OtherRows {
 /// One repair of one index.
 class OrbitRepairer {
  public:
-  OrbitRepairer(OrbitIndex& orbit_index, const GMap& map, OrbitRepair& work, Journal* journal)
-      : index_(orbit_index), map_(map), work_(work), journal_(journal), links_(map, index_.type_) {
+  OrbitRepairer(OrbitIndex& orbit_index, const GMap& map, OrbitRepair& done, RepairSpace& work,
+                Journal* journal)
+      : index_(orbit_index), map_(map), done_(done), work_(work),
+        log_(journal != nullptr ? &journal->log(orbit_index) : nullptr),
+        links_(map, index_.type_) {
     index_.rows_.resize(map.dart_end(), kNoRow);
   }
 
@@ -102,7 +105,7 @@ class OrbitRepairer {
       }
     }
     sort_parts();
-    for (const OrbitRepair::Part& part : work_.parts_) name_part(part);
+    for (const RepairSpace::Part& part : work_.parts_) name_part(part);
     close_rows();
   }
 
@@ -119,16 +122,16 @@ class OrbitRepairer {
       for (std::uint32_t k = begin; k < end; ++k) {
         least = std::min(least, darts[k]);
         const Row old = rows[index(darts[k])];
-        if (old == last) continue;
+        if (old == last || old == kNoRow) continue;
         last = old;
-        if (old != kNoRow) open_row(old);
+        open_row(old);
       }
       work_.parts_.push_back({least, begin, end});
       begin = end;
     }
-    work_.visited_darts += known.darts.size();
+    done_.visited_darts += known.darts.size();
     sort_parts();
-    for (const OrbitRepair::Part& part : work_.parts_) {
+    for (const RepairSpace::Part& part : work_.parts_) {
       name_known(known.darts.subspan(part.darts_begin, part.darts_end - part.darts_begin),
                  part.smallest);
     }
@@ -149,7 +152,7 @@ class OrbitRepairer {
       name_all([&](DartId d, auto&& visit) { walk_breadth_first(d, visit); });
     }
     close_all_rows();
-    if (journal_ != nullptr) record_changed_rows();
+    if (log_ != nullptr) record_changed_rows();
     index_.rows_.swap(work_.new_rows_);
   }
 
@@ -170,10 +173,10 @@ class OrbitRepairer {
   }
 
   void drop(DartId d) {
-    if (journal_ != nullptr) journal_->record_row(index_, d, row(d));
+    if (log_ != nullptr) log_->record_row(d, row(d));
     open_row(row(d));
     row(d) = kNoRow;
-    ++work_.visited_darts;
+    ++done_.visited_darts;
   }
 
   void open_row(Row row) {
@@ -227,10 +230,10 @@ class OrbitRepairer {
     std::swap(darts[begin], darts[least]);
     std::swap(work_.old_rows_[begin], work_.old_rows_[least]);
     work_.parts_.push_back({darts[begin], begin, listed_});
-    work_.visited_darts += listed_ - begin;
+    done_.visited_darts += listed_ - begin;
   }
 
-  void name_part(const OrbitRepair::Part& part) {
+  void name_part(const RepairSpace::Part& part) {
     const Row former = work_.old_rows_[part.darts_begin];
     const Row name = take_row(former, part.smallest);
     others_.clear();
@@ -238,7 +241,7 @@ class OrbitRepairer {
     for (std::uint32_t i = part.darts_begin; i < part.darts_end; ++i) {
       const Row old = work_.old_rows_[i];
       if (old != former) others_.add(old);
-      if (journal_ != nullptr && old != name) journal_->record_row(index_, work_.darts_[i], old);
+      if (log_ != nullptr && old != name) log_->record_row(work_.darts_[i], old);
       rows[index(work_.darts_[i])] = name;
     }
     publish(name, part.smallest, former);
@@ -251,10 +254,10 @@ class OrbitRepairer {
     Row* const rows = index_.rows_.data();
     for (const DartId d : darts) {
       const Row old = rows[index(d)];
-      if (old != former) others_.add(old);
-      if (old == name) continue;
-      if (journal_ != nullptr) journal_->record_row(index_, d, old);
+      if (old == name) continue;  // no other row: a new one has no darts
       rows[index(d)] = name;
+      if (log_ != nullptr) log_->record_row(d, old);
+      if (old != kNoRow && old != former) others_.add(old);
     }
     publish(name, least, former);
   }
@@ -263,8 +266,8 @@ class OrbitRepairer {
   Row take_row(Row former, DartId least) {
     const bool free = former != kNoRow && marked(smallest(former));
     const Row name = free ? former : new_row();
-    if (journal_ != nullptr && free && unmark(smallest(name)) != least) {
-      journal_->record_smallest(index_, name, unmark(smallest(name)));
+    if (log_ != nullptr && free && unmark(smallest(name)) != least) {
+      log_->record_smallest(name, unmark(smallest(name)));
     }
     smallest(name) = least;
     return name;
@@ -279,7 +282,7 @@ class OrbitRepairer {
   void close_rows() {
     for (const Row row : work_.open_) {
       if (!marked(smallest(row))) continue;
-      if (journal_ != nullptr) journal_->record_smallest(index_, row, unmark(smallest(row)));
+      if (log_ != nullptr) log_->record_smallest(row, unmark(smallest(row)));
       remove_row(row);
     }
   }
@@ -319,13 +322,13 @@ class OrbitRepairer {
             new_rows[index(x)] = name;
             if (old != former) others_.add(old);
           });
-      if (journal_ != nullptr && smallest(name) != d) {
-        journal_->record_smallest(index_, name, smallest(name));
+      if (log_ != nullptr && smallest(name) != d) {
+        log_->record_smallest(name, smallest(name));
       }
       smallest(name) = mark(d);
       if (marks != kNoRow) publish(name, d, former);
     }
-    work_.visited_darts += dart_end;
+    done_.visited_darts += dart_end;
   }
 
   template <class Visit>
@@ -350,7 +353,7 @@ class OrbitRepairer {
       if (marked(d)) {
         d = unmark(d);
       } else {
-        if (journal_ != nullptr) journal_->record_smallest(index_, row, d);
+        if (log_ != nullptr) log_->record_smallest(row, d);
         remove_row(row);
       }
     }
@@ -359,7 +362,7 @@ class OrbitRepairer {
   void record_changed_rows() {
     for (std::uint32_t i = 0; i < map_.dart_end(); ++i) {
       const Row old = index_.rows_[i];
-      if (old != work_.new_rows_[i]) journal_->record_row(index_, DartId{i}, old);
+      if (old != work_.new_rows_[i]) log_->record_row(DartId{i}, old);
     }
   }
 
@@ -373,28 +376,29 @@ class OrbitRepairer {
 
   void remove_row(Row row) {
     smallest(row) = kNoDart;
-    work_.removed.push_back(row);
+    done_.removed.push_back(row);
     --index_.alive_;
   }
 
   /// Tells the caller of an orbit whose former rows are `former` and `others_`.
   void publish(Row row, DartId least, Row former) {
-    const auto begin = static_cast<std::uint32_t>(work_.sources.size());
+    const auto begin = static_cast<std::uint32_t>(done_.sources.size());
     if (!others_.empty()) {
-      others_.write(former, work_.sources);
+      others_.write(former, done_.sources);
     } else if (former != kNoRow) {
-      work_.sources.push_back(former);
+      done_.sources.push_back(former);
     }
-    const auto count = static_cast<std::uint32_t>(work_.sources.size()) - begin;
-    work_.orbits.push_back({row, least, begin, count});
-    if (count != 1) ++(count == 0 ? work_.created : work_.merged);
-    work_.split += row != former && count > 0;
+    const auto count = static_cast<std::uint32_t>(done_.sources.size()) - begin;
+    done_.orbits.push_back({row, least, begin, count});
+    if (count != 1) ++(count == 0 ? done_.created : done_.merged);
+    done_.split += row != former && count > 0;
   }
 
   OrbitIndex& index_;
   const GMap& map_;
-  OrbitRepair& work_;
-  Journal* journal_;
+  OrbitRepair& done_;
+  RepairSpace& work_;
+  Journal::IndexLog* log_;  // null: nothing is recorded
   detail::OrbitLinks links_;
   OtherRows others_;
   std::uint32_t listed_ = 0;  // darts of all parts
@@ -409,20 +413,11 @@ void OrbitRepair::clear() {
   visited_darts = 0;
 }
 
-void OrbitRepair::swap_space(OrbitRepair& other) {
-  parts_.swap(other.parts_);
-  darts_.swap(other.darts_);
-  queue_.swap(other.queue_);
-  old_rows_.swap(other.old_rows_);
-  open_.swap(other.open_);
-  new_rows_.swap(other.new_rows_);
-}
-
 void OrbitIndex::repair(const GMap& map, std::span<const DartId> touched,
-                        const KnownOrbits& known, OrbitRepair& repair, Journal* journal) {
+                        const KnownOrbits& known, OrbitRepair& repair, RepairSpace& space,
+                        Journal* journal) {
   if (touched.empty() && known.darts.empty()) return;
-  if (journal != nullptr) journal->begin(*this);
-  OrbitRepairer repairer(*this, map, repair, journal);
+  OrbitRepairer repairer(*this, map, repair, space, journal);
   if (touched.size() + known.darts.size() < map.dart_end() / kManyTouched) {
     return touched.empty() ? repairer.repair_known(known) : repairer.repair_few(touched, known);
   }
