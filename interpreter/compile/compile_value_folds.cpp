@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Collections and folds of value programs: a fold is computed once for each lane of the domain to which
-// its collection belongs, or, when its terms depend on more, of the domain in which it is written.
+// Collections and folds of value programs: a fold is computed once for each lane of the domain to
+// which its collection belongs, or, when its terms depend on more, of the domain in which it is
+// written.
 #include <algorithm>
 
 #include "compile/value_compiler.h"
@@ -24,7 +25,8 @@ ValueCompiler::Collection ValueCompiler::collection(const Expr& expr) {
       return collection(*expr.args[1]);
     }
     case ExprKind::OrbitDarts:
-      return {ValueOp::Members, expr.orbit, {}, graph_.any_dart_of(expr.orbit, dart(*expr.args[0]))};
+      return {
+          ValueOp::Members, expr.orbit, {}, graph_.any_dart_of(expr.orbit, dart(*expr.args[0]))};
     case ExprKind::Quotient:
       return {ValueOp::Quotient, expr.orbit, expr.orbit2,
               graph_.any_dart_of(expr.orbit, dart(*expr.args[0]))};
@@ -49,7 +51,8 @@ DomainId ValueCompiler::natural_domain(const Collection& collection) {
 
 /// The instruction that lists the members.
 ValueId ValueCompiler::open(const Collection& collection, DomainId above) {
-  ValueInstruction members{.op = collection.op, .args = {collection.from, collection.to, LaneDomain::kNone}};
+  ValueInstruction members{.op = collection.op,
+                           .args = {collection.from, collection.to, LaneDomain::kNone}};
   members.orbit = collection.orbit;
   if (collection.op != ValueOp::Quotient) return graph_.open(members, above);
   members.op = ValueOp::Members;
@@ -121,7 +124,8 @@ ValueId ValueCompiler::fold_over(const Expr& expr, ValueId members) {
       return graph_.fold(fold, domain);
     case FoldKind::ArgMax:
     case FoldKind::ArgMin: {
-      ValueInstruction best{.op = expr.fold == FoldKind::ArgMax ? ValueOp::Highest : ValueOp::Lowest};
+      ValueInstruction best{.op =
+                                expr.fold == FoldKind::ArgMax ? ValueOp::Highest : ValueOp::Lowest};
       best.args[0] = number(*expr.args[1]);
       const bool is_dart = expr.type.kind == ValueKind::Dart;
       fold.op = is_dart ? ValueOp::PickDart : ValueOp::Pick;

@@ -119,7 +119,8 @@ ValueId ValueCompiler::dart(const Expr& expr) {
       return with_let(expr, [&](const Expr& body) { return dart(body); });
     case ExprKind::If: {
       const ValueId condition = number(*expr.args[0]);
-      if (const auto value = graph_.known_number(condition)) return dart(*expr.args[*value != 0.0 ? 1 : 2]);
+      if (const auto value = graph_.known_number(condition))
+        return dart(*expr.args[*value != 0.0 ? 1 : 2]);
       return make(ValueOp::ChooseDart, 1, {condition, dart(*expr.args[1]), dart(*expr.args[2])});
     }
     case ExprKind::Fold:
@@ -144,7 +145,8 @@ ValueId ValueCompiler::number(const Expr& expr) {
     case ExprKind::Local: {
       const Bound& bound = local(expr.slot);
       if (bound.kind == Bound::Kind::Value) return bound.value;
-      return make(ValueOp::Parameter, count, {}, static_cast<std::int32_t>(types::index(expr.slot)));
+      return make(ValueOp::Parameter, count, {},
+                  static_cast<std::int32_t>(types::index(expr.slot)));
     }
     case ExprKind::Let:
       return with_let(expr, [&](const Expr& body) { return number(body); });
@@ -164,7 +166,8 @@ ValueId ValueCompiler::number(const Expr& expr) {
       return make(ValueOp::Dt, 1, {});
     case ExprKind::Random: {
       const ValueId at = graph_.any_dart_of(expr.orbit, dart(argument(1)));
-      ValueInstruction random{.op = ValueOp::Random, .args = {number(argument(0)), at, LaneDomain::kNone}};
+      ValueInstruction random{.op = ValueOp::Random,
+                              .args = {number(argument(0)), at, LaneDomain::kNone}};
       random.orbit = expr.orbit;
       return graph_.add(random);
     }
@@ -265,7 +268,8 @@ ValueId ValueCompiler::product(const Expr& expr) {
   if (count == 1) return make(ValueOp::Multiply, 1, {a, b});
   if (is_scalar(left.type)) return make(ValueOp::Scale, count, {a, b});
   if (is_scalar(right.type)) return make(ValueOp::Scale, count, {b, a});
-  ValueInstruction product{.op = ValueOp::Product, .count = count, .args = {a, b, LaneDomain::kNone}};
+  ValueInstruction product{
+      .op = ValueOp::Product, .count = count, .args = {a, b, LaneDomain::kNone}};
   product.left = left.type.kind;
   product.right = right.type.kind;
   return graph_.add(product);

@@ -35,7 +35,7 @@ class ValueCompiler {
   struct Bound {
     enum class Kind : std::uint8_t { Parameter, Value, Members, Later };
     Kind kind = Kind::Parameter;
-    ValueId value = 0;            ///< a dart or a number
+    ValueId value = 0;  ///< a dart or a number
     Collection members = {};
     const Expr* later = nullptr;  ///< a `let` of the rule
   };
@@ -58,7 +58,8 @@ class ValueCompiler {
   template <typename T>
   class Restored {
    public:
-    Restored(T& variable, T value) : variable_(variable), outer_(std::exchange(variable, std::move(value))) {}
+    Restored(T& variable, T value)
+        : variable_(variable), outer_(std::exchange(variable, std::move(value))) {}
     ~Restored() { variable_ = std::move(outer_); }
     Restored(const Restored&) = delete;
     Restored& operator=(const Restored&) = delete;

@@ -7,21 +7,7 @@
 namespace gmsim::compile {
 
 bool makes_dart(ValueOp op) {
-  switch (op) {
-    case ValueOp::Node:
-    case ValueOp::Alpha:
-    case ValueOp::Smallest:
-    case ValueOp::ChooseDart:
-    case ValueOp::SpreadDart:
-    case ValueOp::Members:
-    case ValueOp::Quotient:
-    case ValueOp::Polygon:
-    case ValueOp::AllOrbits:
-    case ValueOp::PickDart:
-      return true;
-    default:
-      return false;
-  }
+  return op < ValueOp::Range || op == ValueOp::PickDart;
 }
 
 // ---- domains ------------------------------------------------------------------------------------
@@ -40,7 +26,8 @@ DomainId ValueGraph::rows(std::uint8_t joined) {
 }
 
 bool ValueGraph::is_above(DomainId above, DomainId below) const {
-  while (below != above && domains_[below].above != LaneDomain::kNone) below = domains_[below].above;
+  while (below != above && domains_[below].above != LaneDomain::kNone)
+    below = domains_[below].above;
   const LaneDomain &a = domains_[above], &b = domains_[below];
   if (above == below) return true;
   if (a.above != LaneDomain::kNone) return false;
@@ -106,8 +93,8 @@ ValueId ValueGraph::constant(std::span<const double> components) {
   const auto same = [](double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
   };
-  auto at = std::search(constants_.begin(), constants_.end(), components.begin(),
-                        components.end(), same);
+  auto at =
+      std::search(constants_.begin(), constants_.end(), components.begin(), components.end(), same);
   const auto begin = static_cast<std::int32_t>(at - constants_.begin());
   if (at == constants_.end()) {
     constants_.insert(constants_.end(), components.begin(), components.end());

@@ -18,7 +18,7 @@
 /// the domain above one after the other.
 namespace gmsim::compile {
 
-using ValueId = std::uint32_t;   ///< number of an instruction, and of its result
+using ValueId = std::uint32_t;  ///< number of an instruction, and of its result
 using DomainId = std::uint32_t;
 
 enum class ValueOp : std::uint8_t {
@@ -30,9 +30,9 @@ enum class ValueOp : std::uint8_t {
 /// What the lanes of values stand for.
 struct LaneDomain {
   static constexpr DomainId kNone = 0xffffffffu;
-  DomainId above = kNone;     ///< kNone: rows of the match
-  /// Rows: of the groups of rows that the label positions `chosen` join the first ones, and of those
-  /// again one for each group that the positions in `joined` join. A bit for each position.
+  DomainId above = kNone;  ///< kNone: rows of the match
+  /// Rows: of the groups of rows that the label positions `chosen` join the first ones, and of
+  /// those again one for each group that the positions in `joined` join. A bit for each position.
   std::uint8_t chosen = 0, joined = 0;
   ValueId opened_by = kNone;  ///< else the instruction that lists the members
 };

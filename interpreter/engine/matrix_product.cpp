@@ -52,7 +52,8 @@ void matrix_times_matrix(const MatrixOperand& a, const MatrixOperand& b, double*
 
 void multiply(ValueKind left, const double* a, ValueKind right, const double* b, double* out) {
   const MatrixOperand matrix(left, a);
-  if (right == ValueKind::Vec2 || right == ValueKind::Vec3) return matrix_times_vector(matrix, b, out);
+  if (right == ValueKind::Vec2 || right == ValueKind::Vec3)
+    return matrix_times_vector(matrix, b, out);
   matrix_times_matrix(matrix, MatrixOperand(right, b), out);
 }
 

@@ -17,8 +17,8 @@ class QuotientFilter {
   /// Call before each orbit.
   void start(OrbitType outer, OrbitType inner);
   /// Inside, the smallest dart of an inner orbit is the first that is asked. An orbit that reaches
-  /// out is known by its number: two darts fall together when they share the whole of it, though the
-  /// way from one to the other may leave the outer orbit.
+  /// out is known by its number: two darts fall together when they share the whole of it, though
+  /// the way from one to the other may leave the outer orbit.
   [[nodiscard]] bool keeps(DartId d) {
     if (index_ == nullptr) return keeps_unnumbered(d);
     const Row row = index_->row(d);
@@ -43,7 +43,7 @@ class QuotientFilter {
   bool inside_ = false;                      // the inner orbits do not reach out of the outer one
   std::array<std::uint32_t, kFew> met_{};    // else those that were met,
   std::size_t count_ = 0;
-  std::unordered_set<std::uint32_t> many_;   // and those after many
+  std::unordered_set<std::uint32_t> many_;  // and those after many
 };
 
 }  // namespace gmsim::engine

@@ -35,7 +35,8 @@ void Rewriter::Implementation::write_links() {
     const auto& kept = row_plan_->kept_links[static_cast<std::size_t>(i)];
     const auto& created = row_plan_->created_links[static_cast<std::size_t>(i)];
     if (recording_) {
-      for (const RowPlan::Link link : kept) state.map.set_alpha(i, darts[link.from], darts[link.to]);
+      for (const RowPlan::Link link : kept)
+        state.map.set_alpha(i, darts[link.from], darts[link.to]);
     }
     if (created.empty() && (recording_ || kept.empty())) continue;
     const DartId first = recording_ ? darts[created.front().from] : DartId{0};

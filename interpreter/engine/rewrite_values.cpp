@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rewriter: the values of a rule's right side, computed on the map before the rewrite by a program; where
-// that gives up, the trees are evaluated, one by one, and say what is missing.
+// Rewriter: the values of a rule's right side, computed on the map before the rewrite by a program;
+// where that gives up, the trees are evaluated, one by one, and say what is missing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -56,8 +56,8 @@ bool Rewriter::Implementation::evaluate_trees(const compile::Rule& rule, Rewrite
 }
 
 bool Rewriter::Implementation::evaluate_at(const compile::Rule& rule,
-                                           const compile::Assignment& assignment,
-                                           std::uint32_t row, RewriteOutcome& outcome) {
+                                           const compile::Assignment& assignment, std::uint32_t row,
+                                           RewriteOutcome& outcome) {
   if (!bind_row(rule.match, row, outcome)) return false;
   const std::uint32_t stride = state.store.column(assignment.embedding).stride();
   const std::size_t begin = numbers_.size();
@@ -94,8 +94,7 @@ bool Rewriter::Implementation::bind_row(const compile::MatchPlan& plan, std::uin
     if (predicate.kind != compile::Predicate::Kind::Let) continue;
     if (judge_predicate(predicate, i, matcher.evaluator(), frame_, outcome.failure)) continue;
     const bool missing = outcome.failure.reason == MatchFailure::Reason::Missing;
-    outcome.status =
-        missing ? RewriteOutcome::Status::NotMatched : RewriteOutcome::Status::Failed;
+    outcome.status = missing ? RewriteOutcome::Status::NotMatched : RewriteOutcome::Status::Failed;
     outcome.error = outcome.failure.error;
     return false;
   }

@@ -33,7 +33,9 @@ class StoredValues {
       return column->has(row) ? column->get(row) : std::span<const double>{};
     }
   };
-  [[nodiscard]] const Source& operator[](EmbeddingId id) const { return sources_[types::index(id)]; }
+  [[nodiscard]] const Source& operator[](EmbeddingId id) const {
+    return sources_[types::index(id)];
+  }
   [[nodiscard]] bool in_use(EmbeddingId id) const {
     return sources_[types::index(id)].column != nullptr;
   }

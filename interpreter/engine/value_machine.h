@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -15,13 +16,25 @@
 
 namespace gmsim::engine {
 
+/// Copies a value; most have one component or three.
+template <typename T>
+void copy_components(const T* from, std::uint32_t count, T* out) {
+  if (count == 1) {
+    *out = *from;
+  } else if (count == 3) {
+    for (int i = 0; i < 3; ++i) out[i] = from[i];
+  } else {
+    std::copy_n(from, count, out);
+  }
+}
+
 /// Runs value programs: every operation in the order of the tree evaluator, so with its bits.
 class ValueMachine {
  public:
   explicit ValueMachine(const State& state) : state_(state), stored_(state), filter_(state) {}
 
-  /// Computes all values at a match; `frame` holds the parameters. False when something has no value,
-  /// which need not be something that a tree would look at.
+  /// Computes all values at a match; `frame` holds the parameters. False when something has no
+  /// value, which need not be something that a tree would look at.
   bool run(const compile::ValueProgram& program, const Match& match, RowPlan& rows,
            const Frame& frame);
   /// Of the last run: the components of the first lane, then of the next.
@@ -57,14 +70,17 @@ class ValueMachine {
 
   bool execute(const Instruction& by, Register& result);
   // value_machine.cpp
+  void find_darts(const Instruction& by, DartId* out) const;
   void node(const Instruction& by, DartId* out) const;
+  void find_smallest(const Instruction& by, DartId* out) const;
   template <typename T>
   void spread(const Instruction& by, const T* from, T* out) const;
+  // value_machine_numbers.cpp
+  bool compute(const Instruction& by, double* out) const;
   bool read(const Instruction& by, double* out) const;
   bool element(const Instruction& by, double* out) const;
   bool parameter(const Instruction& by, double* out) const;
   void call(const Instruction& by, double* out) const;
-  void find_smallest(const Instruction& by, DartId* out) const;
   // value_machine_folds.cpp
   bool open(const Instruction& by, Register& result);
   void list_members(const Instruction& by, Lanes& lanes);
@@ -94,5 +110,22 @@ class ValueMachine {
   StackMemory<std::uint32_t> lane_memory_;
   StackMemory<DartId> dart_memory_;
 };
+
+template <typename T>
+void ValueMachine::spread(const Instruction& by, const T* from, T* out) const {
+  const Lanes& lanes = lanes_[by.domain];
+  if (lanes.rows == nullptr) {
+    for (const std::uint32_t lane : lanes.above) {
+      copy_components(from + std::size_t{lane} * by.count, by.count, out);
+      out += by.count;
+    }
+    return;
+  }
+  const Lanes& above = lanes_[program_->code[by.args[0]].domain];
+  for (const std::uint32_t row : lanes.rows->first) {
+    copy_components(from + std::size_t{above.rows->of[row]} * by.count, by.count, out);
+    out += by.count;
+  }
+}
 
 }  // namespace gmsim::engine

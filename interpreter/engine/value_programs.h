@@ -8,8 +8,8 @@
 
 namespace gmsim::engine {
 
-/// The value programs of the rules that were applied, for the columns that are in use. Rules stay where
-/// they are while this lives.
+/// The value programs of the rules that were applied, for the columns that are in use. Rules stay
+/// where they are while this lives.
 class ValuePrograms {
  public:
   explicit ValuePrograms(const State& state) : state_(state) {}

@@ -60,10 +60,10 @@ DartId GMap::add_darts(std::uint32_t count) {
   const std::uint32_t first = dart_end();
   GMSIM_CHECK(count < 0x80000000u - first, "more than 2^31 darts");
   if (journal_ != nullptr) journal_->begin(*this);
-  alpha_[0].resize(first + count);
-  for (std::uint32_t d = first; d < first + count; ++d) alpha_[0][d] = DartId{d};
-  for (int i = 1; i <= dimension_; ++i) {
-    alpha_[i].insert(alpha_[i].end(), alpha_[0].begin() + first, alpha_[0].end());
+  for (int i = 0; i <= dimension_; ++i) {
+    alpha_[i].resize(first + count);
+    DartId* const links = alpha_[i].data();
+    for (std::uint32_t d = first; d < first + count; ++d) links[d] = DartId{d};
   }
   alive_ += count;
   return DartId{first};

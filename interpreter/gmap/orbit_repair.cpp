@@ -190,6 +190,10 @@ class OrbitRepairer {
     if (listed_ == work_.darts_.size()) make_room();
     const Row old = row(d);
     row(d) = kWalked;
+    if (d < least_) {
+      least_ = d;
+      least_at_ = listed_;
+    }
     work_.darts_[listed_] = d;
     work_.old_rows_[listed_++] = old;
     if (old == last_old_) return;
@@ -223,12 +227,9 @@ class OrbitRepairer {
   /// The listed darts from number `begin` on are an orbit; its smallest comes first for name_part.
   void end_part(std::uint32_t begin) {
     DartId* const darts = work_.darts_.data();
-    std::uint32_t least = begin;
-    for (std::uint32_t k = begin; k < listed_; ++k) {
-      if (darts[k] < darts[least]) least = k;
-    }
-    std::swap(darts[begin], darts[least]);
-    std::swap(work_.old_rows_[begin], work_.old_rows_[least]);
+    std::swap(darts[begin], darts[least_at_]);
+    std::swap(work_.old_rows_[begin], work_.old_rows_[least_at_]);
+    least_ = kNoDart;
     work_.parts_.push_back({darts[begin], begin, listed_});
     done_.visited_darts += listed_ - begin;
   }
@@ -403,6 +404,8 @@ class OrbitRepairer {
   OtherRows others_;
   std::uint32_t listed_ = 0;  // darts of all parts
   Row last_old_ = kNoRow;     // of the dart listed last
+  DartId least_ = kNoDart;    // of the part at hand,
+  std::uint32_t least_at_ = 0;  // and its place
 };
 
 void OrbitRepair::clear() {

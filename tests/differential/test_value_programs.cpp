@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Value programs against the tree evaluator: the same bits, for the values of the library's rules and for
-// random expressions; where a program gives up, the trees decide, so it must not do so often.
+// Value programs against the tree evaluator: the same bits, for the values of the library's rules
+// and for random expressions; where a program gives up, the trees decide, so it must not do so
+// often.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -20,9 +21,9 @@ using namespace gmsim::tests;
 namespace {
 
 struct Tally {
-  int same = 0;         // values that both give
-  int incomplete = 0;   // rules that lanes cannot express
-  int given_up = 0;     // runs that gave up though the trees have all values
+  int same = 0;        // values that both give
+  int incomplete = 0;  // rules that lanes cannot express
+  int given_up = 0;    // runs that gave up though the trees have all values
 };
 
 /// The bits of numbers.
@@ -100,7 +101,8 @@ void compare_library(const gmap::Mesh& mesh, std::uint64_t seed, Tally& tally) {
       engine::Frame frame(rule.frame_size);
       for (const compile::Parameter& parameter : rule.parameters) {
         if (parameter.default_value) continue;
-        frame.set(parameter.slot, std::vector<double>(types::component_count(parameter.type), 0.25));
+        frame.set(parameter.slot,
+                  std::vector<double>(types::component_count(parameter.type), 0.25));
       }
       engine::Match match;
       if (!matcher.match(rule.match, hooks, frame, match)) continue;
@@ -110,8 +112,8 @@ void compare_library(const gmap::Mesh& mesh, std::uint64_t seed, Tally& tally) {
 }
 
 /// A rule without a right side that gives a value to a node of such a label.
-compile::Rule value_rule(const check::CheckedExpression& expression, const std::vector<std::int8_t>& label,
-                         types::EmbeddingId embedding) {
+compile::Rule value_rule(const check::CheckedExpression& expression,
+                         const std::vector<std::int8_t>& label, types::EmbeddingId embedding) {
   compile::Rule rule;
   rule.frame_size = expression.frame_size;
   rule.match.nodes.push_back({"a", label, expression.dart, {}});
@@ -128,8 +130,8 @@ void compare_expression(RandomWorld& world, const std::string& text, const char*
   CAPTURE(text);
   const auto id = world.state().program.schema.find(embedding);
   const compile::Rule rule = value_rule(world.checked(text), label, *id);
-  const compile::ValueProgram program = compile::compile_values(
-      rule, world.state().program.schema, columns_in_use(world.state()));
+  const compile::ValueProgram program =
+      compile::compile_values(rule, world.state().program.schema, columns_in_use(world.state()));
   engine::Matcher matcher(world.state());
   for (int k = 0; k < 4; ++k) {
     const DartId hook = world.random_dart();
@@ -153,14 +155,30 @@ void compare_world(const gmap::Mesh& mesh, std::uint32_t seed, int expressions, 
       compare_expression(world, text, embedding, label, tally);
     };
     switch (i % 8) {
-      case 0: compare(random.vec(depth), "velocity"); break;
-      case 1: compare(random.mat(depth), "m"); break;
-      case 2: compare(random.sym(depth), "s"); break;
-      case 3: compare(random.vec2(depth), "p2"); break;
-      case 4: compare(random.mat2(depth), "m2"); break;
-      case 5: compare(random.truth(depth), "flag"); break;
-      case 6: compare(random.whole(depth), "k"); break;
-      default: compare(random.real(depth), "r"); break;
+      case 0:
+        compare(random.vec(depth), "velocity");
+        break;
+      case 1:
+        compare(random.mat(depth), "m");
+        break;
+      case 2:
+        compare(random.sym(depth), "s");
+        break;
+      case 3:
+        compare(random.vec2(depth), "p2");
+        break;
+      case 4:
+        compare(random.mat2(depth), "m2");
+        break;
+      case 5:
+        compare(random.truth(depth), "flag");
+        break;
+      case 6:
+        compare(random.whole(depth), "k");
+        break;
+      default:
+        compare(random.real(depth), "r");
+        break;
     }
   }
 }
@@ -173,8 +191,10 @@ TEST_CASE("values of the library's rules are those of the trees, bit by bit") {
   Tally tally;
   compare_library(gmap::grid(3, 2, 1.0, 2.0, gmap::GridCells::Quads), kSeed, tally);
   compare_library(gmap::grid(3, 3, 1.0, 1.0, gmap::GridCells::Mix2), kSeed + 1, tally);
-  compare_library(gmap::box({2, 1, 2}, {1.0, 2.0, 3.0}, gmap::BoxElements::Hexes), kSeed + 2, tally);
-  compare_library(gmap::box({1, 2, 1}, {1.0, 2.0, 1.0}, gmap::BoxElements::Tets5), kSeed + 3, tally);
+  compare_library(gmap::box({2, 1, 2}, {1.0, 2.0, 3.0}, gmap::BoxElements::Hexes), kSeed + 2,
+                  tally);
+  compare_library(gmap::box({1, 2, 1}, {1.0, 2.0, 1.0}, gmap::BoxElements::Tets5), kSeed + 3,
+                  tally);
   CHECK(tally.same > 2'000);
   CHECK(tally.incomplete == 0);
   CHECK(tally.given_up == 0);
