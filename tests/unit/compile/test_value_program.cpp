@@ -83,7 +83,7 @@ TEST_CASE(
 }
 
 TEST_CASE("an embedding that is not stored is not computed") {
-  const auto program = program_of("c.position = a.position; c.weight = 1;", "weight");
+  const auto program = program_of("c.position = (0, 0, 0); c.weight = 1;", "weight");
   REQUIRE(program.outputs.size() == 1);
   CHECK(program.outputs.front().assignment == 0);
 }
