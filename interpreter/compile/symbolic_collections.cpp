@@ -51,11 +51,7 @@ void SymbolicWalker::darts(const Expr& expr, std::vector<DartRef>& out) {
     case ExprKind::Quotient: {
       const DartRef at = dart(*expr.args[0]);
       if (failed()) return;
-      gmap::for_each_dart(world_.map, expr.orbit, at.dart, [&](DartId d) {
-        depend(d);
-        if (!expr.orbit.contains(expr.orbit2)) depend(expr.orbit2, d);
-      });
-      for (const DartId d : gmap::quotient(world_.map, expr.orbit, expr.orbit2, at.dart)) append(d);
+      for (const DartId d : walked_.quotient(expr.orbit, expr.orbit2, at.dart)) append(d);
       trace_quotient(expr.orbit, expr.orbit2, at, out);
       break;
     }

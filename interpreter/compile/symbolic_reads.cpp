@@ -8,7 +8,6 @@
 
 #include "compile/symbolic_walker.h"
 #include "compile/value_parts.h"
-#include "gmap/orbit_walk.h"
 #include "support/check.h"
 
 namespace gmsim::compile {
@@ -136,8 +135,7 @@ SymbolicValue SymbolicWalker::expand(const ValueSource& source, DartRef at, Orbi
     frame_ = &inner;
     const bool move = source.frame == ValueSource::Frame::SmallestDart && !orbit.empty();
     if (move) {  // so that the last bit does not depend on which dart asks
-      depend(orbit, at.dart);
-      at = {gmap::smallest_dart(world_.map, orbit, at.dart), kNoWalk};
+      at = {walked_.smallest(orbit, at.dart), kNoWalk};
       trace_.spoil();
     }
     bind(source.dart, at);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "compile/value_parts.h"
-#include "gmap/orbit_walk.h"
 #include "support/check.h"
 
 namespace gmsim::compile {
@@ -18,7 +17,7 @@ using types::ValueKind;
 
 SymbolicWalker::SymbolicWalker(const World& world, const ItemBody& body,
                                const ValueSources& sources)
-    : world_(world), body_(body), sources_(sources), roles_(world) {
+    : world_(world), body_(body), sources_(sources), roles_(world), walked_(world.map) {
   for (const gmap::EmbeddingDecl& decl : world.schema) {
     const bool parameter = decl.role == gmap::EmbeddingRole::Parameter;
     presences_.push_back(parameter ? world.schema.find(decl.name.substr(0, decl.name.find('.')))
@@ -34,8 +33,7 @@ void SymbolicWalker::start(std::span<const DartId> nodes, ir::Graph* graph) {
   key_.clear();
   draws_.clear();
   atomic_.clear();
-  walked_.clear();
-  for (const DartId node : nodes) depend(node);
+  walked_.start(nodes);
   everywhere_ = false;
   positions_.clear();
   differentiated_.clear();
@@ -58,12 +56,8 @@ void SymbolicWalker::start(std::span<const DartId> nodes, ir::Graph* graph) {
   }
 }
 
-void SymbolicWalker::depend(OrbitType orbit, DartId dart) {
-  gmap::for_each_dart(world_.map, orbit, dart, [&](DartId d) { depend(d); });
-}
-
 void SymbolicWalker::take_walked(MatchRoles& out) {
-  out.walked.swap(walked_);
+  walked_.swap(out.walked);
   out.everywhere = everywhere_;
 }
 

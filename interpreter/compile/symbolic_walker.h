@@ -13,6 +13,7 @@
 #include "compile/specialise.h"
 #include "compile/symbolic_value.h"
 #include "compile/walk_program.h"
+#include "compile/walked_orbits.h"
 
 namespace gmsim::compile {
 
@@ -79,8 +80,8 @@ class SymbolicWalker {
 
   // symbolic_walker.cpp
   /// The match depends on the links of this dart, or of all darts of an orbit.
-  void depend(DartId dart) { walked_.push_back({dart, kEverything}); }
-  void depend(OrbitType orbit, DartId dart);
+  void depend(DartId dart) { walked_.add(dart); }
+  void depend(OrbitType orbit, DartId dart) { walked_.smallest(orbit, dart); }
   [[nodiscard]] Cell& cell(Slot slot) { return (*frame_)[types::index(slot)]; }
   void decide(std::uint32_t outcome) { key_.push_back(outcome); }
   void bind(Slot slot, SymbolicValue value);
@@ -179,7 +180,7 @@ class SymbolicWalker {
   std::vector<std::uint32_t> key_;
   std::vector<Draw> draws_;
   std::vector<std::uint32_t> atomic_;
-  std::vector<Dependence> walked_;
+  WalkedOrbits walked_;
   bool everywhere_ = false;
   std::vector<NodeId> positions_;
   std::vector<NodeId> differentiated_;

@@ -2,7 +2,6 @@
 #include "gmap/orbit_walk.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace gmsim::gmap {
 
@@ -26,16 +25,7 @@ bool same_orbit(const GMap& map, OrbitType type, DartId a, DartId b) {
 }
 
 std::vector<DartId> quotient(const GMap& map, OrbitType outer, OrbitType inner, DartId d) {
-  std::vector<std::pair<DartId, DartId>> members;  // smallest dart of the inner orbit, dart
-  for_each_dart(map, outer, d,
-                [&](DartId x) { members.emplace_back(smallest_dart(map, inner, x), x); });
-  std::sort(members.begin(), members.end());
-  std::vector<DartId> darts;
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    if (i == 0 || members[i].first != members[i - 1].first) darts.push_back(members[i].second);
-  }
-  std::sort(darts.begin(), darts.end());
-  return darts;
+  return quotient(map, outer, d, [&](DartId x) { return smallest_dart(map, inner, x); });
 }
 
 std::vector<DartId> all_orbits(const GMap& map, OrbitType type) {

@@ -24,6 +24,10 @@ void for_each_dart(const GMap& map, OrbitType type, DartId d, Visitor&& f);
 /// that are in both. The quotient `outer(d) / inner` of the language.
 [[nodiscard]] std::vector<DartId> quotient(const GMap& map, OrbitType outer, OrbitType inner,
                                            DartId d);
+/// The same, where `smallest(x)` is the smallest dart of the inner orbit of x.
+template <class Smallest>
+[[nodiscard]] std::vector<DartId> quotient(const GMap& map, OrbitType outer, DartId d,
+                                           Smallest&& smallest);
 /// One dart (the smallest) for each orbit of the map, ascending.
 [[nodiscard]] std::vector<DartId> all_orbits(const GMap& map, OrbitType type);
 /// d, d@0@1, d@0@1@0@1 …: the corners around a face in order; empty when the face is open.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 #include <vector>
 
 #include "gmap/gmap.h"
@@ -130,6 +131,19 @@ void for_each_dart(const GMap& map, OrbitType type, DartId d, Visitor&& f) {
     f(x);
     for (int k = 0; k < links.count; ++k) queue.push(links.alpha[k][index(x)]);
   }
+}
+
+template <class Smallest>
+std::vector<DartId> quotient(const GMap& map, OrbitType outer, DartId d, Smallest&& smallest) {
+  std::vector<std::pair<DartId, DartId>> members;  // smallest dart of the inner orbit, dart
+  for_each_dart(map, outer, d, [&](DartId x) { members.emplace_back(smallest(x), x); });
+  std::sort(members.begin(), members.end());
+  std::vector<DartId> darts;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (i == 0 || members[i].first != members[i - 1].first) darts.push_back(members[i].second);
+  }
+  std::sort(darts.begin(), darts.end());
+  return darts;
 }
 
 }  // namespace gmsim::gmap
