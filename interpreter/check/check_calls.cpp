@@ -234,7 +234,8 @@ ExprPtr ExprChecker::builtin_call(types::Builtin builtin, const syntax::CallExpr
         context_.report({.kind = DiagnosticKind::UnitMismatch,
                          .message = "`" + expr.callee.text + "` takes a number without unit, " +
                                     "this is in " + unit_text(value->unit),
-                         .place = value->span});
+                         .place = value->span,
+                         .help = "divide it by a value in " + unit_text(value->unit)});
         return make_error(span);
       }
   }

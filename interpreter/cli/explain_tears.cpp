@@ -42,7 +42,7 @@ void explain_tears(const scene::Scene& scene, engine::Simulation& simulation, st
     const auto& [nearest, ratios] = (*reports)[i];
     out << fmt::format("{}:\n", scene.program.criteria[tear.criterion].name);
     if (nearest.where == gmap::kNoDart) {
-      out << "  never judged: its pattern holds nowhere, or `after` was not reached\n";
+      out << "  never judged: its pattern holds nowhere that `where` allows, or `after` was not reached\n";
       continue;
     }
     out << fmt::format(
@@ -51,7 +51,7 @@ void explain_tears(const scene::Scene& scene, engine::Simulation& simulation, st
         nearest.time, nearest.value, nearest.value / nearest.threshold, nearest.threshold,
         nearest.position[0], nearest.position[1], nearest.position[2],
         types::index(nearest.where));
-    out << fmt::format("  {} matches at the end, by share of the threshold:\n", ratios.size());
+    out << fmt::format("  {} places at the end that may tear, by share of the threshold:\n", ratios.size());
     print_histogram(ratios, out);
   }
 }

@@ -215,6 +215,10 @@ std::string name_at(const std::vector<std::string>& names, std::int32_t number) 
 void print_events(Session& session, const TrajectoryReader& reader) {
   const auto events = reader.read_events(session.diagnostics);
   if (!events) return;
+  if (events->empty()) {
+    session.out << "nothing tore\n";
+    return;
+  }
   session.out << fmt::format("{:>7}  {:>10}  {:>7}  {:<24}  {:>10}  {:>10}  {:<22}  {}\n", "step",
                              "time", "frame", "criterion", "value", "threshold", "change",
                              "at");

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "cli/add_commands.h"
+#include "cli/number_checks.h"
 #include "cli/run_cli.h"
 #include "cli/version.h"
 #include "support/suggest.h"
@@ -124,7 +125,8 @@ void add_stdlib(CLI::App& app, Options& options) {
 }
 
 void add_dimension(CLI::App& app, Options& options) {
-  app.add_option("--dimension", options.dimension, "dimension of the map")->check(CLI::Range(1, 3));
+  take_whole_numbers(app.add_option("--dimension", options.dimension, "dimension of the map"), 1,
+                     3);
 }
 
 ParsedOptions parse_options(std::span<const std::string> arguments, std::ostream& out,

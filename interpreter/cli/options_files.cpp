@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/add_commands.h"
+#include "cli/number_checks.h"
 
 namespace gmsim::cli {
 namespace {
@@ -85,8 +86,7 @@ void add_export(CLI::App& app, Options& options) {
       ->type_name("FORMAT");
   command->add_option("--first", options.file.first, "frame to begin with; -1 is the last");
   command->add_option("--last", options.file.last, "frame to end with");
-  command->add_option("--every", options.file.every, "only every so many frames")
-      ->check(CLI::PositiveNumber);
+  take_counts(command->add_option("--every", options.file.every, "only every so many frames"));
   command->callback([&options] { options.command = Options::Command::Export; });
 }
 
@@ -116,7 +116,7 @@ void add_view(CLI::App& app, Options& options) {
       ->type_name("FILE");
   command->add_option("--field", options.file.field, "colours the mesh when the page opens")
       ->type_name("NAME");
-  command->add_option("--frames", options.file.frames, "frames at most")->check(CLI::PositiveNumber);
+  take_counts(command->add_option("--frames", options.file.frames, "frames at most"));
   command->add_option("--title", options.file.title, "heading of the page")->type_name("TEXT");
   command->callback([&options] { options.command = Options::Command::View; });
 }

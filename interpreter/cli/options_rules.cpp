@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/add_commands.h"
+#include "cli/number_checks.h"
 
 namespace gmsim::cli {
 namespace {
@@ -85,10 +86,10 @@ void add_apply(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("DART,DART");
-  command->add_option("--times", options.times, "repeat the whole application")
-      ->check(CLI::Range(1u, 1000000u));
-  command->add_option("--density", options.density, "mass per measure of an element, for corner_mass")
-      ->check(CLI::NonNegativeNumber);
+  take_whole_numbers(command->add_option("--times", options.times, "repeat the whole application"),
+                     1, 1000000);
+  take_numbers_from_zero(command->add_option("--density", options.density,
+                                             "mass per measure of an element, for corner_mass"));
   command->add_option("-o,--output", options.output, "result, .vtu or .obj")->type_name("FILE");
   command->add_flag("--validate", options.validate, "check the map after every rewrite");
   command->add_flag("--profile", options.profile, "time, touched darts and rows");
@@ -104,7 +105,7 @@ void add_apply(CLI::App& app, Options& options) {
 void add_fuzz(CLI::App& app, Options& options) {
   auto* command = app.add_subcommand("fuzz", kFuzzExamples);
   add_rule_and_parameters(*command, options);
-  command->add_option("--trials", options.trials, "maps to try")->check(CLI::Range(1u, 100000000u));
+  take_whole_numbers(command->add_option("--trials", options.trials, "maps to try"), 1, 100000000);
   command->add_option_function<std::uint64_t>(
       "--seed",
       [&options](std::uint64_t seed) {

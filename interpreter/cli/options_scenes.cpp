@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/add_commands.h"
+#include "cli/number_checks.h"
 
 namespace gmsim::cli {
 namespace {
@@ -54,8 +55,9 @@ void add_scene(CLI::App& command, Options& options) {
 }
 
 void add_engine(CLI::App& command, Options& options) {
-  command.add_option("--threads", options.run.threads, "threads; the result is the same bit by bit")
-      ->check(CLI::Range(1u, 1024u));
+  take_whole_numbers(command.add_option("--threads", options.run.threads,
+                                        "threads; the result is the same bit by bit"),
+                     1, 1024);
   command.add_option_function<std::string>(
       "--kernel",
       [&options](const std::string& name) { options.run.tree_kernel = name == "tree"; },
@@ -77,9 +79,10 @@ void add_run(CLI::App& app, Options& options) {
   command->add_flag("--json", options.run.json, "log lines as JSON, one object a line");
   command->add_flag("--explain-tear", options.run.explain_tear,
                     "at the end, how near each criterion came to its threshold, where and when");
-  command->add_option("--max-wall", options.run.max_wall, "stop after so many seconds (exit code 4)")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("SECONDS");
+  take_numbers_from_zero(command
+                             ->add_option("--max-wall", options.run.max_wall,
+                                          "stop after so many seconds (exit code 4)")
+                             ->type_name("SECONDS"));
   command->add_option("--trace", options.run.traces, "follow a phase, as in `step` or `match:RULE`")
       ->allow_extra_args(false)
       ->type_name("PHASE[:RULE]");
@@ -113,24 +116,26 @@ void add_study(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAME,NAME");
-  command->add_option("--dt", options.study.steps, "steps to compare, s")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber)
-      ->type_name("DT,DT");
-  command->add_option("--rtol", options.study.tolerances,
-                      "tolerances to compare, for methods that choose their steps")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber)
-      ->type_name("RTOL,RTOL");
-  command->add_option("--reference-dt", options.study.reference_step, "step of the reference, s")
-      ->check(CLI::PositiveNumber)
-      ->type_name("DT");
+  take_positive_numbers(command->add_option("--dt", options.study.steps, "steps to compare, s")
+                            ->delimiter(',')
+                            ->allow_extra_args(false)
+                            ->type_name("DT,DT"));
+  take_positive_numbers(
+      command
+          ->add_option("--rtol", options.study.tolerances,
+                       "tolerances to compare, for methods that choose their steps")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->type_name("RTOL,RTOL"));
+  take_positive_numbers(
+      command
+          ->add_option("--reference-dt", options.study.reference_step, "step of the reference, s")
+          ->type_name("DT"));
   command->add_option("--reference-method", options.study.reference_method, "rk4 unless told otherwise")
       ->type_name("NAME");
-  command->add_option("--repetitions", options.study.repetitions, "timed runs of each point")
-      ->check(CLI::Range(1u, 1000u));
+  take_whole_numbers(
+      command->add_option("--repetitions", options.study.repetitions, "timed runs of each point"),
+      1, 1000);
   command->add_option("-o,--out", options.study.folder, "folder for the results")->type_name("DIR");
   add_engine(*command, options);
   add_stdlib(*command, options);

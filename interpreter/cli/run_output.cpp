@@ -9,6 +9,7 @@
 #include <map>
 
 #include "cli/version.h"
+#include "compile/expression_search.h"
 #include "gmap/orbit_walk.h"
 
 namespace gmsim::cli {
@@ -135,7 +136,7 @@ std::unique_ptr<RunOutput> RunOutput::create(const scene::Scene& scene,
   std::unique_ptr<RunOutput> output(new RunOutput(scene));
   output->make_mesh();
   output->links_ = links_of(scene.state->map);
-  output->make_columns();
+  if (!output->make_columns(diagnostics)) return nullptr;
   output->writer_ =
       io::TrajectoryWriter::create(options.path, output->describe(sources, options),
                                    {.force = options.force, .sync = scene.output.sync}, diagnostics);
@@ -144,7 +145,7 @@ std::unique_ptr<RunOutput> RunOutput::create(const scene::Scene& scene,
 
 /// Velocities with all their digits, so that a run can go on from a frame; masses and darts; and
 /// what the scene asks for.
-void RunOutput::make_columns() {
+bool RunOutput::make_columns(support::Diagnostics& diagnostics) {
   const int n = scene_.program.dimension;
   const OrbitType vertex = OrbitType::cell(0, n), cell = OrbitType::cell(n, n);
   const auto& schema = scene_.state->store.schema();
@@ -166,6 +167,11 @@ void RunOutput::make_columns() {
   for (const scene::OutputField& field : scene_.output.fields)
     if (field.name != "velocity" || field.text != "velocity")
       columns_.emplace_back(field, n);
+  const bool reads_forces = std::ranges::any_of(scene_.output.fields, [&](const auto& field) {
+    return compile::reads_forces(*field.value.value, schema);
+  });
+  if (reads_forces) probe_ = engine::ForceProbe::create(*scene_.state, scene_.model, diagnostics);
+  return !reads_forces || probe_;
 }
 
 void RunOutput::make_mesh() {
@@ -257,6 +263,10 @@ bool RunOutput::write_state(double time, std::int64_t step, support::Diagnostics
     mesh_.mesh.points[point] = {value[0], value[1], value[2]};
   }
   engine::TreeEvaluator evaluator(*scene_.state);
+  if (probe_) {
+    if (!probe_->update(diagnostics)) return false;
+    evaluator.read_forces(&probe_->forces());
+  }
   std::vector<io::FrameField> fields;
   for (FrameColumn& column : columns_) {
     if (!column.evaluate(evaluator, darts_of(column), diagnostics)) return false;
@@ -317,9 +327,15 @@ void RunOutput::add_report(const RunReport& report, const engine::Simulation& si
                           totals.angular_momentum[2],
                           static_cast<double>(simulation.evaluations()),
                           report.max_elongation,
-                          static_cast<double>(mesh_.mesh.points.size()),
-                          static_cast<double>(mesh_.mesh.topology.cell_count())};
+                          static_cast<double>(vertices_.orbit_count()),
+                          static_cast<double>(cell_count())};
   writer_->add_report(row);
+}
+
+std::size_t RunOutput::cell_count() const {
+  if (!map_changed_) return mesh_.mesh.topology.cell_count();
+  const int n = scene_.program.dimension;
+  return gmap::all_orbits(scene_.state->map, OrbitType::range(0, n - 1)).size();
 }
 
 bool RunOutput::close(std::uint64_t state_hash, std::string_view ending,

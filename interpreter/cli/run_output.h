@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/frame_column.h"
+#include "engine/force_probe.h"
 #include "engine/simulation.h"
 #include "engine/tree_eval.h"
 #include "io/mesh_frame_from_map.h"
@@ -55,7 +56,8 @@ class RunOutput {
 
  private:
   explicit RunOutput(const scene::Scene& scene);
-  void make_columns();
+  /// False after an error.
+  bool make_columns(support::Diagnostics& diagnostics);
   void make_mesh();
   [[nodiscard]] io::RunDescription describe(const support::SourceMap& sources,
                                             const Options& options) const;
@@ -63,6 +65,8 @@ class RunOutput {
   io::NewTopology take_topology();
   bool write_state(double time, std::int64_t step, support::Diagnostics& diagnostics);
   [[nodiscard]] std::span<const engine::DartId> darts_of(const FrameColumn& column);
+  /// Of the map as it is, which the last frame may not show.
+  [[nodiscard]] std::size_t cell_count() const;
 
   const scene::Scene& scene_;
   const gmap::OrbitIndex& vertices_;
@@ -70,6 +74,7 @@ class RunOutput {
   io::PointNumbering numbering_;
   io::MapFrame mesh_;
   std::vector<FrameColumn> columns_;
+  std::unique_ptr<engine::ForceProbe> probe_;  // when a field reads forces
   std::vector<engine::DartId> orbit_darts_;
   std::unique_ptr<io::TrajectoryWriter> writer_;
   std::vector<std::int32_t> links_;    // of all darts, as the file has them

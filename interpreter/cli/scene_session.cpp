@@ -16,6 +16,7 @@ std::unique_ptr<engine::Simulation> make_simulation(Session& session, scene::Sce
   engine::SimulationOptions options;
   options.threads = session.options.run.threads;
   options.tree_kernel = session.options.run.tree_kernel;
+  options.follow_nearest = session.options.run.explain_tear;
   options.trace = &session.trace;
   return engine::Simulation::create(*scene.state, scene.model, scene.integrator, options,
                                     session.diagnostics);

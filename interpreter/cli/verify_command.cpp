@@ -11,6 +11,8 @@
 #include "cli/json_text.h"
 #include "cli/run_cli.h"
 #include "cli/scene_session.h"
+#include "compile/expression_search.h"
+#include "engine/force_probe.h"
 #include "engine/tree_eval.h"
 
 namespace gmsim::cli {
@@ -95,7 +97,15 @@ class VerifyJob {
     for (const Expectation& expectation : scene_->expectations)
       verdicts_.push_back({&expectation, false, {}, 0, false});
     if (!session_.diagnostics.has_errors()) simulation_ = make_simulation(session_, *scene_);
-    return simulation_ != nullptr;
+    if (!simulation_) return false;
+    const bool reads_forces =
+        std::ranges::any_of(scene_->expectations, [&](const Expectation& expectation) {
+          return expectation.value.value &&
+                 compile::reads_forces(*expectation.value.value, scene_->program.schema);
+        });
+    if (reads_forces)
+      probe_ = engine::ForceProbe::create(*scene_->state, scene_->model, session_.diagnostics);
+    return !reads_forces || probe_;
   }
 
   [[nodiscard]] double next_time() const {
@@ -109,6 +119,10 @@ class VerifyJob {
     if (next_time() > simulation_->time()) return true;
     simulation_->sync();
     engine::TreeEvaluator evaluator(*scene_->state);
+    if (probe_) {
+      if (!probe_->update(session_.diagnostics)) return false;
+      evaluator.read_forces(&probe_->forces());
+    }
     for (Verdict& verdict : verdicts_)
       if (!verdict.reached && verdict.expectation->at <= simulation_->time() &&
           !evaluate(evaluator, verdict))
@@ -201,6 +215,7 @@ class VerifyJob {
   Session& session_;
   std::unique_ptr<scene::Scene> scene_;
   std::unique_ptr<engine::Simulation> simulation_;
+  std::unique_ptr<engine::ForceProbe> probe_;  // when an expectation reads forces
   std::vector<Verdict> verdicts_;
   std::uint64_t tears_ = 0;  ///< changes of `tear` so far
 };

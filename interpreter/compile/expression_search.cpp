@@ -20,6 +20,12 @@ bool any_node(const Expr& expr, const gmap::EmbeddingSchema& schema,
   });
 }
 
+bool reads_forces(const Expr& expr, const gmap::EmbeddingSchema& schema) {
+  return any_node(expr, schema, [](const Expr& node) {
+    return node.kind == ExprKind::ForceOn || node.kind == ExprKind::Forces;
+  });
+}
+
 bool reads_clock(const Expr& expr, const gmap::EmbeddingSchema& schema) {
   return any_node(expr, schema, [](const Expr& node) {
     return node.kind == ExprKind::Time || node.kind == ExprKind::Step || node.kind == ExprKind::Dt;

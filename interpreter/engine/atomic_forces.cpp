@@ -113,6 +113,28 @@ void AtomicForceIndex::read(std::span<const VertexRecord> slots,
     if (forces_[k].share != 0) add(values[k], slots[forces_[k].slot], forces_[k].share);
 }
 
+VertexRecord AtomicForceReader::sum(types::OrbitType orbit, DartId dart,
+                                    std::uint32_t only) const {
+  std::vector<std::uint32_t> numbers;
+  index->list(orbit, dart, numbers);
+  VertexRecord sum;
+  for (const std::uint32_t number : numbers) {
+    const AtomicForce& force = (*index)[number];
+    if (only == 0 || types::index(force.interaction) + 1 == only)
+      add(sum, slots[force.slot], force.share);
+  }
+  return sum;
+}
+
+std::vector<VertexRecord> AtomicForceReader::list(types::OrbitType orbit, DartId dart) const {
+  std::vector<std::uint32_t> numbers;
+  index->list(orbit, dart, numbers);
+  std::vector<VertexRecord> forces(numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    add(forces[k], slots[(*index)[numbers[k]].slot], (*index)[numbers[k]].share);
+  return forces;
+}
+
 // ---- sums on orbits -----------------------------------------------------------------------------
 
 void OrbitForces::list(const AtomicForceIndex& atomic, DartId dart) {

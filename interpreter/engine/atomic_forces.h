@@ -74,6 +74,18 @@ class AtomicForceIndex final : public compile::AtomicForceList {
   mutable std::vector<DartId> darts_;      // work space
 };
 
+/// The same forces as expressions ask for them one orbit at a time: conditions of a scene, output
+/// fields.
+struct AtomicForceReader {
+  const AtomicForceIndex* index = nullptr;
+  std::span<const VertexRecord> slots;  ///< as ForceField::atomic_slots()
+
+  /// The sum over an orbit; `only` as in OrbitForces.
+  [[nodiscard]] VertexRecord sum(types::OrbitType orbit, DartId dart, std::uint32_t only) const;
+  /// One by one, in the order of AtomicForceIndex::list().
+  [[nodiscard]] std::vector<VertexRecord> list(types::OrbitType orbit, DartId dart) const;
+};
+
 /// force_on(O(a)) for all orbits of a type, of all interactions or of one.
 class OrbitForces {
  public:

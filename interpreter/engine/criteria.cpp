@@ -19,10 +19,10 @@ Criteria::Criteria(State& state, const ForceField& forces, std::span<const TearP
       world_(forces.context()->world),
       evaluator_(state) {
   world_.atomic_forces = &atomic_;
+  evaluator_.read_forces(&reader_);
   readings_.vertex = types::OrbitType::cell(0, state.map.dimension());
   for (std::uint32_t i = 0; i < pairings.size(); ++i) {
-    const compile::CriterionBody& body = state.program.criterion_bodies[pairings[i].criterion];
-    for (const types::OrbitType orbit : force_reads(body, state.program.schema, readings_.vertex).orbits)
+    for (const OrbitType orbit : force_reads(pairings[i], state.program, readings_.vertex).orbits)
       state.store.use_index(orbit);
     fields_.push_back(std::make_unique<CriterionField>(*forces.context(), world_, pairings[i], i));
   }
@@ -113,13 +113,23 @@ Criteria::Diagnostic Criteria::judge(const Motion& motion, double time, double d
                            .dt = dt, .step = forces_.step(),
                            .forces = &readings_};
   bool synced = false;
+  const auto sync_once = [&] {
+    if (!std::exchange(synced, true)) sync();
+  };
+  reader_.slots = forces_.atomic_slots();
   std::vector<TearRequest> of_field;
   for (const auto& field : fields_) {
     if (!due(field)) continue;
     of_field.clear();
-    if (Diagnostic error = field->judge(moment, of_field)) return error;
+    Diagnostic problem;
+    const auto allowed_at = [&](DartId hook) {
+      sync_once();
+      return allowed(field->pairing(), hook, problem);
+    };
+    if (Diagnostic error = field->judge(moment, allowed_at, of_field)) return error;
+    if (problem) return problem;
     if (of_field.empty()) continue;
-    if (!std::exchange(synced, true)) sync();
+    sync_once();
     if (Diagnostic error = select(*field, of_field)) return error;
     std::move(of_field.begin(), of_field.end(), std::back_inserter(requests));
   }
@@ -147,14 +157,18 @@ std::optional<support::Diagnostic> threshold_problem(const TearPairing& pairing,
 
 }  // namespace
 
+bool Criteria::allowed(const TearPairing& pairing, DartId hook, Diagnostic& error) {
+  if (!pairing.where) return true;
+  return !error && holds_at(evaluator_, *pairing.where, hook, error);
+}
+
 Criteria::Diagnostic Criteria::select(const CriterionField& field,
                                       std::vector<TearRequest>& requests) {
   const TearPairing& pairing = field.pairing();
   Diagnostic error;
-  if (pairing.where)
-    std::erase_if(requests, [&](const TearRequest& request) {
-      return error || !holds_at(evaluator_, *pairing.where, request.hook, error);
-    });
+  std::erase_if(requests, [&](const TearRequest& request) {
+    return !allowed(pairing, request.hook, error);
+  });
   for (const TearRequest& request : requests)
     if (!error) error = threshold_problem(pairing, request, field.body().name);
   choose_strongest(requests, pairing.at_most);

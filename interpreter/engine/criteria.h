@@ -45,6 +45,8 @@ class Criteria {
   void read_forces_now();
   /// Drops what the scene does not allow, keeps the strongest, and adds a request for each node.
   Diagnostic select(const CriterionField& field, std::vector<TearRequest>& requests);
+  /// Does the scene let it tear there?
+  [[nodiscard]] bool allowed(const TearPairing& pairing, DartId hook, Diagnostic& error);
 
   State& state_;
   const ForceField& forces_;
@@ -53,6 +55,7 @@ class Criteria {
   ForceReadings readings_;
   bool one_by_one_ = false;
   std::vector<std::unique_ptr<CriterionField>> fields_;
+  AtomicForceReader reader_{&atomic_, {}};  // what `where` reads
   TreeEvaluator evaluator_;
   std::vector<AtomicForce> listed_;
   // Work space of repairs.

@@ -64,8 +64,10 @@ compile::Wanted wanted(const compile::CriterionBody& body, types::Slot threshold
 
 }  // namespace
 
-ForceReads force_reads(const compile::CriterionBody& body, const gmap::EmbeddingSchema& schema,
+ForceReads force_reads(const TearPairing& pairing, const compile::Program& program,
                        types::OrbitType vertex) {
+  const compile::CriterionBody& body = program.criterion_bodies[pairing.criterion];
+  const gmap::EmbeddingSchema& schema = program.schema;
   ForceReads reads;
   const auto collect = [&](const Expr& expr) {
     (void)compile::any_node(expr, schema, [&](const Expr& node) {
@@ -82,6 +84,9 @@ ForceReads force_reads(const compile::CriterionBody& body, const gmap::Embedding
   collect(*body.value);
   for (const compile::BodyStep& step : body.steps) collect(*step.value);
   for (const compile::BodyResult& result : body.results) collect(*result.value);
+  for (const SlotValue& parameter : pairing.parameters) collect(*parameter.value.value);
+  if (pairing.where)  // which is not computed by kernels
+    reads.single = reads.single || compile::reads_forces(*pairing.where->value, schema);
   return reads;
 }
 
@@ -241,11 +246,12 @@ std::string CriterionField::explain() const {
 }
 
 CriterionField::Diagnostic CriterionField::judge(const ForceMoment& moment,
+                                                 const std::function<bool(DartId)>& allowed,
                                                  std::vector<TearRequest>& requests) {
   ratios_.clear();
   NearestMatch nearest;
   for (std::uint32_t shape = 0; shape < parts_.size(); ++shape)
-    if (Diagnostic error = judge_part(*parts_[shape], shape, moment, nearest, requests))
+    if (Diagnostic error = judge_part(*parts_[shape], shape, moment, allowed, nearest, requests))
       return error;
   note_nearest(nearest, moment);
   return std::nullopt;
@@ -253,6 +259,7 @@ CriterionField::Diagnostic CriterionField::judge(const ForceMoment& moment,
 
 CriterionField::Diagnostic CriterionField::judge_part(Part& part, std::uint32_t shape,
                                                       const ForceMoment& moment,
+                                                      const std::function<bool(DartId)>& allowed,
                                                       NearestMatch& nearest,
                                                       std::vector<TearRequest>& requests) {
   const std::uint32_t count = part.table.size();
@@ -282,11 +289,31 @@ CriterionField::Diagnostic CriterionField::judge_part(Part& part, std::uint32_t 
     }
     if (fires) fire(part, shape, row, moment, requests);
   }
+  if (pairing_.where) {
+    if (follow_nearest_ || keep_ratios_) survey_allowed(part, moment, allowed, nearest);
+    return std::nullopt;
+  }
   if (best_row)
     take_nearer({part.values[*best_row], part.threshold(*best_row), moment.time,
                  hook(part, *best_row), {}}, nearest);
   if (keep_ratios_) note_ratios(part);
   return std::nullopt;
+}
+
+void CriterionField::survey_allowed(const Part& part, const ForceMoment& moment,
+                                    const std::function<bool(DartId)>& allowed,
+                                    NearestMatch& nearest) {
+  for (std::uint32_t row = 0; row < part.table.size(); ++row) {
+    if (part.table.vacant(row) || part.values[row] == kNotJudged) continue;
+    const NearestMatch here{part.values[row], part.threshold(row), moment.time, hook(part, row), {}};
+    const auto is_farther = [&](const NearestMatch& other) {
+      return other.where != gmap::kNoDart && ratio(here) < ratio(other);
+    };
+    if (!keep_ratios_ && (is_farther(nearest) || is_farther(nearest_))) continue;
+    if (!allowed(here.where)) continue;
+    if (keep_ratios_) ratios_.push_back(ratio(here));
+    take_nearer(here, nearest);
+  }
 }
 
 DartId CriterionField::hook(const Part& part, std::uint32_t row) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,12 +39,16 @@ class CriterionField {
   [[nodiscard]] bool reads_forces_one_by_one() const;
 
   /// Adds a request for each match whose value is above its threshold; `node` is the hook. Where and
-  /// how many of them count is the caller's.
-  Diagnostic judge(const ForceMoment& moment, std::vector<TearRequest>& requests);
+  /// how many of them count is the caller's. `allowed` says of a hook whether the scene lets it tear
+  /// there; only such matches come near to tearing.
+  Diagnostic judge(const ForceMoment& moment, const std::function<bool(DartId)>& allowed,
+                   std::vector<TearRequest>& requests);
   [[nodiscard]] const NearestMatch& nearest() const { return nearest_; }
   /// Value over threshold of all matches in the last judgement, if they are kept.
   [[nodiscard]] const std::vector<double>& ratios() const { return ratios_; }
   void keep_ratios(bool keep) { keep_ratios_ = keep; }
+  /// Look for the nearest match in every judgement, also where that takes asking `allowed`.
+  void follow_nearest(bool follow) { follow_nearest_ = follow; }
   /// Its tables as text (`gmsim explain`).
   [[nodiscard]] std::string explain() const;
   [[nodiscard]] const TearPairing& pairing() const { return pairing_; }
@@ -57,8 +62,12 @@ class CriterionField {
   /// Looks at one match that is there.
   Diagnostic repair(const StaleMatch& match);
   Diagnostic judge_part(Part& part, std::uint32_t shape, const ForceMoment& moment,
-                        NearestMatch& nearest, std::vector<TearRequest>& requests);
+                        const std::function<bool(DartId)>& allowed, NearestMatch& nearest,
+                        std::vector<TearRequest>& requests);
   void note_ratios(const Part& part);
+  /// The nearest match, and the ratios if they are kept, of those that are allowed.
+  void survey_allowed(const Part& part, const ForceMoment& moment,
+                      const std::function<bool(DartId)>& allowed, NearestMatch& nearest);
   [[nodiscard]] DartId hook(const Part& part, std::uint32_t row) const;
   /// Takes over the nearest match of a judgement if none before was nearer.
   void note_nearest(const NearestMatch& candidate, const ForceMoment& moment);
@@ -76,18 +85,19 @@ class CriterionField {
   NearestMatch nearest_;
   std::vector<double> ratios_;
   bool keep_ratios_ = false;
+  bool follow_nearest_ = false;
   // Work space of repairs.
   MatchSet::Stale stale_;
   MatchSet::Reading reading_;
 };
 
-/// What a criterion reads of forces.
+/// What a line of `tear:` reads of forces.
 struct ForceReads {
   std::vector<types::OrbitType> orbits;  ///< on which it reads sums: they need an index
   bool internal = false;  ///< the sum of all internal forces on a vertex
   bool single = false;    ///< other sums, or forces one by one
 };
-[[nodiscard]] ForceReads force_reads(const compile::CriterionBody& body,
-                                     const gmap::EmbeddingSchema& schema, types::OrbitType vertex);
+[[nodiscard]] ForceReads force_reads(const TearPairing& pairing, const compile::Program& program,
+                                     types::OrbitType vertex);
 
 }  // namespace gmsim::engine

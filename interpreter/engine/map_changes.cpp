@@ -16,11 +16,12 @@ MapChanges::MapChanges(State& state, const Model& model, const ForceField& force
     : state_(state),
       model_(model),
       criteria_(state, forces, model.tears),
+      new_interactions_(state, model),
       rewriter_(state),
       tearing_(rewriter_, model.tears),
       evaluator_(state) {
   rewriter_.on_created([this](Rewriter& rewriter, EmbeddingId presence, DartId smallest) {
-    return carry(rewriter, presence, smallest);
+    return new_interactions_.carry(rewriter, presence, smallest);
   });
   const OrbitType vertex = OrbitType::cell(0, state.map.dimension());
   for (const Hold& hold : model.holds) {
@@ -28,33 +29,6 @@ MapChanges::MapChanges(State& state, const Model& model, const ForceField& force
     gmap::for_each_dart(state.map, vertex, hold.vertex,
                         [&](DartId d) { holds_.back().push_back(d); });
   }
-}
-
-MapChanges::Diagnostic MapChanges::carry(Rewriter& rewriter, EmbeddingId presence,
-                                         DartId smallest) {
-  const auto& bodies = state_.program.interaction_bodies;
-  const auto active = std::find_if(
-      model_.interactions.begin(), model_.interactions.end(),
-      [&](const ActiveInteraction& a) { return bodies[a.interaction].presence == presence; });
-  if (active == model_.interactions.end()) return std::nullopt;
-  const double yes = 1;
-  rewriter.set_value(presence, smallest, {&yes, 1});
-  for (const ParameterBinding& parameter : active->parameters) {
-    if (parameter.kind != ParameterBinding::Kind::Stored) continue;
-    if (!state_.store.get(parameter.embedding, smallest).empty()) continue;  // the rule's own value
-    const gmap::EmbeddingDecl& decl = state_.program.schema[parameter.embedding];
-    if (!parameter.expression.value)
-      return support::Diagnostic{
-          support::DiagnosticKind::MissingEmbeddingValue,
-          fmt::format("the rule makes a new {} orbit, for which nothing gives `{}`",
-                      types::to_string(decl.orbit), decl.name),
-          active->span};
-    Diagnostic error;
-    const auto value = value_at(evaluator_, parameter.expression, smallest, error);
-    if (!value) return error;
-    rewriter.set_value(parameter.embedding, smallest, value->data);
-  }
-  return std::nullopt;
 }
 
 // ---- rewrites of every step ---------------------------------------------------------------------

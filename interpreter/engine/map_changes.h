@@ -10,6 +10,7 @@
 
 #include "engine/criteria.h"
 #include "engine/model.h"
+#include "engine/new_interactions.h"
 #include "engine/tearing.h"
 
 namespace gmsim::engine {
@@ -50,8 +51,6 @@ class MapChanges {
   /// Darts at which a rewrite is tried: one for each orbit of `to` that `where` allows.
   Diagnostic find_candidates(const StandingRewrite& rewrite, std::vector<DartId>& darts);
   Diagnostic evaluate_arguments(const StandingRewrite& rewrite, Arguments& arguments);
-  /// A new orbit that can carry an interaction gets it, with the scene's parameters.
-  Diagnostic carry(Rewriter& rewriter, EmbeddingId presence, DartId smallest);
   /// Drops requests that have no turn in this pass.
   void drop_spent(std::uint32_t pass);
   /// Moves what is applied before anything is judged again from requests_ to batch_.
@@ -62,6 +61,7 @@ class MapChanges {
   State& state_;
   const Model& model_;
   Criteria criteria_;
+  NewInteractions new_interactions_;
   Rewriter rewriter_;
   Tearing tearing_;
   TreeEvaluator evaluator_;

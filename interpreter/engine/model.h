@@ -27,13 +27,22 @@ struct ParameterBinding {
   EmbeddingId embedding{};
   Kind kind = Kind::Uniform;
   types::Value uniform;        ///< Uniform; SI
-  DartExpression expression;   ///< OfTime; Stored: for orbits that a rule creates later
+  DartExpression expression;   ///< OfTime
+};
+
+/// One place of a scene that asks for an interaction. Where a rule makes a new orbit there on which
+/// the pattern holds, that orbit carries it too.
+struct InteractionSite {
+  std::optional<std::uint32_t> body;
+  std::optional<DartExpression> where;
+  std::vector<DartExpression> given;  ///< by parameter; without a value: the interaction's default
 };
 
 /// An interaction at work. The orbits that carry it are those with its presence mark.
 struct ActiveInteraction {
   std::uint32_t interaction = 0;  ///< index into Program::interactions
   std::vector<ParameterBinding> parameters;
+  std::vector<InteractionSite> sites;
   support::Span span;             ///< where the scene asks for it
 };
 
@@ -59,6 +68,9 @@ struct Model {
   std::vector<TearPairing> tears;
   std::vector<StandingRewrite> rewrites;
   std::vector<Hold> holds;
+  /// Of the darts at the start; empty when there is one body. What rules make belongs to the body
+  /// that it hangs together with.
+  std::vector<std::uint32_t> body_of_dart;
 };
 
 /// What happens when the step is above the stability limit.

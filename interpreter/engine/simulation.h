@@ -60,6 +60,7 @@ struct StepReport {
 struct SimulationOptions {
   unsigned threads = 1;
   bool tree_kernel = false;  ///< evaluate forces by the tree oracle: slow, for comparison
+  bool follow_nearest = false;  ///< survey() is to know how near criteria have come since the start
   support::Trace* trace = nullptr;
 };
 
@@ -105,7 +106,7 @@ class Simulation {
   bool refresh(support::Diagnostics& diagnostics);
   /// What a line of `tear:` has seen.
   struct CriterionReport {
-    NearestMatch nearest;              ///< since the start
+    NearestMatch nearest;              ///< since the start, with SimulationOptions::follow_nearest
     std::vector<double> ratios;        ///< value over threshold of all matches, now
   };
   /// Judges all criteria on the state as it is, and changes nothing; by line of `tear:`.

@@ -10,8 +10,7 @@ ForceOptions options_for_criteria(const State& state, const Model& model) {
   ForceOptions options;
   const auto vertex = types::OrbitType::cell(0, state.map.dimension());
   for (const TearPairing& tear : model.tears) {
-    const ForceReads reads = force_reads(state.program.criterion_bodies[tear.criterion],
-                                         state.program.schema, vertex);
+    const ForceReads reads = force_reads(tear, state.program, vertex);
     options.internal = options.internal || reads.internal;
     options.atomic = options.atomic || reads.single;
   }

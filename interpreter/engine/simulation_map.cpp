@@ -158,10 +158,14 @@ std::optional<std::vector<Simulation::CriterionReport>> Simulation::Implementati
   sync();
   if (!first_forces(diagnostics)) return std::nullopt;
   std::vector<TearRequest> requests;
-  for (const auto& field : changes_->criteria().fields()) field->keep_ratios(true);
+  for (const auto& field : changes_->criteria().fields()) {
+    field->follow_nearest(true);
+    field->keep_ratios(true);
+  }
   auto problem = changes_->criteria().judge(now_.motion, now_.time, dt(), [] {}, requests);
   for (const auto& field : changes_->criteria().fields()) {
     reports.push_back({field->nearest(), field->ratios()});
+    field->follow_nearest(options_.follow_nearest);
     field->keep_ratios(false);
   }
   if (!problem) return reports;

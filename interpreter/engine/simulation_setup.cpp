@@ -58,6 +58,8 @@ bool Simulation::Implementation::prepare(support::Diagnostics& diagnostics) {
       return false;
     }
     changes_ = std::make_unique<MapChanges>(state_, model_, *forces_);
+    for (const auto& field : changes_->criteria().fields())
+      field->follow_nearest(options_.follow_nearest);
     if (!find_criteria(diagnostics)) return false;
   }
   for (support::Diagnostic& notice : forces_->notices(now_.motion, now_.time))

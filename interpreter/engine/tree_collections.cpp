@@ -87,6 +87,12 @@ void TreeWalker::each(const Expr& fold, const Body& body) {
     variable = {Frame::Kind::Numbers, 1, types::kNoDart, &number, nullptr};
     for (; number < range[1] && !failed() && body(); number += 1.0) {
     }
+  } else if (collection.type.kind == types::ValueKind::Forces) {
+    std::vector<std::array<double, 3>> vectors = atomic_forces(collection);
+    for (std::size_t i = 0; i < vectors.size() && !failed(); ++i) {
+      variable = {Frame::Kind::Numbers, 3, types::kNoDart, vectors[i].data(), nullptr};
+      if (!body()) break;
+    }
   } else {
     const DartPool::Lease members(pool_);
     darts(collection, *members);
@@ -185,19 +191,20 @@ void TreeWalker::fold_best(const Expr& expr, const Body& body) {
   bool found = false;
   double best = 0.0;
   Frame::Cell winner;
-  double number = 0.0;  // of the winner, when the variable runs over a range
+  std::array<double, 3> numbers_of_best{};  // when the variable is a number or a force
   each(expr, [&] {
     const double key = scalar(*expr.args[1]);
     if (std::isnan(key)) fail(DiagnosticKind::NonFinite, *expr.args[1], "not a number");
     if (!found || (expr.fold == FoldKind::ArgMin ? key < best : key > best)) {
       best = key;
       winner = frame_->cell(expr.slot);
-      if (winner.kind == Frame::Kind::Numbers) number = *winner.numbers;
+      if (winner.kind == Frame::Kind::Numbers)
+        std::copy_n(winner.numbers, winner.count, numbers_of_best.begin());
     }
     return found = true;
   });
   if (!found) return fail_empty(expr);
-  if (winner.kind == Frame::Kind::Numbers) winner.numbers = &number;
+  if (winner.kind == Frame::Kind::Numbers) winner.numbers = numbers_of_best.data();
   const Frame::Cell outer = std::exchange(frame_->cell(expr.slot), winner);
   body();
   frame_->cell(expr.slot) = outer;

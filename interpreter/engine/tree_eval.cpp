@@ -8,6 +8,8 @@ namespace gmsim::engine {
 TreeEvaluator::TreeEvaluator(const State& state) : walker_(std::make_unique<TreeWalker>(state)) {}
 TreeEvaluator::~TreeEvaluator() = default;
 
+void TreeEvaluator::read_forces(const AtomicForceReader* forces) { walker_->read_forces(forces); }
+
 bool TreeEvaluator::failed() const { return walker_->failed(); }
 EvalFailure TreeEvaluator::take_failure() { return walker_->take_failure(); }
 

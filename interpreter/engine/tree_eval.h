@@ -22,6 +22,7 @@ struct EvalFailure {
 };
 
 class TreeWalker;
+struct AtomicForceReader;
 
 /// Evaluates checked expressions on a state, one at a time, straight from the tree: slow, simple,
 /// and the reference for anything faster. Collections are visited by ascending smallest dart and
@@ -47,6 +48,9 @@ class TreeEvaluator {
 
   /// The value of any embedding at a dart, stored, derived or default.
   bool read(EmbeddingId id, DartId dart, std::span<double> out);
+
+  /// What force_on() and forces() read from now on; null: they are not available.
+  void read_forces(const AtomicForceReader* forces);
 
   [[nodiscard]] bool failed() const;
   /// The first failure since the last call; there must be one.

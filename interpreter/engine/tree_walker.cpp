@@ -66,8 +66,11 @@ void TreeWalker::fail_missing(EmbeddingId id, DartId dart, const Expr* reader) {
 }
 
 void TreeWalker::unavailable(const Expr& expr) {
+  const bool derivative = expr.kind == ExprKind::Grad;
   fail(DiagnosticKind::NotAvailable, expr,
-       "forces and their derivatives are not available outside a simulation");
+       derivative ? "derivatives cannot be taken here" : "forces cannot be read here",
+       derivative ? "`grad` works in interactions and criteria"
+                  : "criteria, output fields and expectations read them while a scene runs");
 }
 
 EvalFailure TreeWalker::take_failure() {
@@ -357,8 +360,9 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
     case ExprKind::Not:
       *out = scalar(expr);
       return;
-    case ExprKind::Forces:
     case ExprKind::ForceOn:
+      return force_on(expr, out);
+    case ExprKind::Forces:
     case ExprKind::Grad:
       unavailable(expr);
       std::fill_n(out, number_count(expr.type), 0.0);

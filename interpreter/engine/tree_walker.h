@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <deque>
 #include <optional>
 #include <span>
@@ -55,6 +56,9 @@ class TreeWalker {
   void assign(const types::Expr& expr, Slot slot);
   void read(EmbeddingId id, DartId dart, double* out, const types::Expr* reader);
 
+  /// As TreeEvaluator::read_forces().
+  void read_forces(const AtomicForceReader* forces) { forces_ = forces; }
+
   [[nodiscard]] bool failed() const { return failure_.has_value(); }
   [[nodiscard]] EvalFailure take_failure();
 
@@ -105,7 +109,13 @@ class TreeWalker {
   [[nodiscard]] DartId fold_dart(const Expr& expr);
   void fail_empty(const Expr& expr);
 
+  // tree_atomic_forces.cpp
+  void force_on(const Expr& expr, double* out);
+  /// The forces of a collection, as numbers of a vector.
+  [[nodiscard]] std::vector<std::array<double, 3>> atomic_forces(const Expr& collection);
+
   const State& state_;
+  const AtomicForceReader* forces_ = nullptr;
   StoredValues stored_;
   QuotientFilter filter_;
   Frame* frame_ = nullptr;

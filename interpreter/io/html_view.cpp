@@ -94,7 +94,8 @@ bool check_field(const RunDescription& run, const std::string& name, Diagnostics
                                                  name)});
       return false;
     }
-    if (can_be_shown) shown.push_back(field.name);
+    const bool is_new = std::find(shown.begin(), shown.end(), field.name) == shown.end();
+    if (can_be_shown && is_new) shown.push_back(field.name);
   }
   std::string help = support::did_you_mean(name, shown);
   if (help.empty() && !shown.empty())

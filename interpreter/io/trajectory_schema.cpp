@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <utility>
 
@@ -28,24 +27,6 @@ std::optional<std::string> field_problem(const FieldDescription& field) {
 }
 
 }  // namespace
-
-bool is_field_name(std::string_view name) {
-  const auto is_bad = [](unsigned char c) { return c <= ' ' || c > '~' || c == '/' || c == '.'; };
-  return !name.empty() && std::none_of(name.begin(), name.end(), is_bad);
-}
-
-std::string field_name(std::string_view expression) {
-  std::string name;
-  for (unsigned char c : expression) {
-    if (std::isalnum(c) != 0) {
-      name += static_cast<char>(c);
-    } else if (!name.empty() && name.back() != '_') {
-      name += '_';
-    }
-  }
-  while (!name.empty() && name.back() == '_') name.pop_back();
-  return name.empty() ? "field" : name;
-}
 
 std::optional<std::string> find_problem(const RunDescription& run) {
   if (run.dimension < 1 || run.dimension > 3) return "the dimension must be 1, 2 or 3";

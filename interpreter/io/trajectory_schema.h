@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/mesh_frame.h"
+#include "support/field_name.h"
 
 namespace gmsim::io {
 
@@ -79,10 +80,8 @@ struct TearEvent {
   std::vector<std::int32_t> cells;  ///< a dart of each cell that was involved
 };
 
-/// Names may not be empty, nor hold `/`, `.` or anything that cannot be printed: VTK refuses them.
-[[nodiscard]] bool is_field_name(std::string_view name);
-/// The expression of a field as a name: "norm(force_on(a))" becomes "norm_force_on_a".
-[[nodiscard]] std::string field_name(std::string_view expression);
+using support::field_name;
+using support::is_field_name;
 /// What is wrong with a description, in words; empty when it is sound.
 [[nodiscard]] std::optional<std::string> find_problem(const RunDescription& run);
 

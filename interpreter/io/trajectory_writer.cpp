@@ -81,6 +81,12 @@ bool may_begin(const std::filesystem::path& path, const RunDescription& run, boo
     return false;
   }
   std::error_code error;
+  if (!path.has_filename() || std::filesystem::is_directory(path, error)) {
+    diagnostics.report({.kind = DiagnosticKind::FileError,
+                        .message = fmt::format("{}: this is a folder", path.string()),
+                        .help = "name the file in it"});
+    return false;
+  }
   if (force || !std::filesystem::exists(part_path(path), error)) return true;
   const std::string part = part_path(path).string();
   diagnostics.report(

@@ -6,6 +6,7 @@
 
 #include "compile/expression_search.h"
 #include "engine/enumerate.h"
+#include "engine/new_interactions.h"
 #include "scene/acting.h"
 #include "scene/expression_facts.h"
 
@@ -47,6 +48,7 @@ class Binder {
           return parameter.kind == ParameterBinding::Kind::Stored;
         });
     if (stored && !store_all()) return std::nullopt;
+    for (const Acting::Use& use : acting_.uses) active_.sites.push_back(site_of(use));
     return std::move(active_);
   }
 
@@ -72,6 +74,17 @@ class Binder {
       building_.state().use(result.embedding);
     }
     return result;
+  }
+
+  [[nodiscard]] engine::InteractionSite site_of(const Acting::Use& use) const {
+    engine::InteractionSite site;
+    if (use.use->body && building_.plan.bodies.size() > 1) site.body = static_cast<std::uint32_t>(*use.use->body);
+    if (use.use->where.good()) site.where = use.use->where.code;
+    for (std::uint32_t i = 0; i < body_.parameters.size(); ++i) {
+      const SceneExpression* expression = given(use, i);
+      site.given.push_back(expression ? expression->code : engine::DartExpression{});
+    }
+    return site;
   }
 
   [[nodiscard]] bool reads_time(std::uint32_t i) const {
@@ -179,20 +192,10 @@ class Binder {
     return values;
   }
 
-  /// Gives the frame the `let`s that an expression reads.
   bool define_lets(const types::Expr& expr, engine::Frame& frame) {
-    if (expr.kind == types::ExprKind::Local && !frame.has(expr.slot)) {
-      const auto let = std::ranges::find_if(body_.steps, [&](const compile::BodyStep& step) {
-        return step.kind == compile::BodyStep::Kind::Let && step.slot == expr.slot;
-      });
-      if (let == body_.steps.end()) return true;  // bound inside the expression
-      if (!define_lets(*let->value, frame)) return false;
-      if (matcher_.evaluator().assign(*let->value, let->slot, frame)) return true;
-      building_.diagnostics.report(matcher_.evaluator().take_failure().diagnostic);
-      return false;
-    }
-    return std::ranges::all_of(
-        expr.args, [&](const types::ExprPtr& part) { return define_lets(*part, frame); });
+    if (engine::define_lets(body_, expr, matcher_.evaluator(), frame)) return true;
+    building_.diagnostics.report(matcher_.evaluator().take_failure().diagnostic);
+    return false;
   }
 
   bool number(const types::Expr& expr, engine::Frame& frame, std::vector<double>& out,

@@ -103,12 +103,19 @@ void set_initial_values(Building& building) {
       // all expressions of an entry read the state before it
       std::vector<std::tuple<types::EmbeddingId, DartId, std::vector<double>>> values;
       DartEvaluator evaluator(building);
+      bool anywhere = initial.values.empty();
       for (const auto& [id, expression] : initial.values)
         for (const DartId dart : chosen(building, schema[id].orbit, initial.where, body)) {
           std::vector<double> value;
           if (!evaluator.evaluate(expression, dart, value)) return;
           values.emplace_back(id, dart, std::move(value));
+          anywhere = true;
         }
+      if (!anywhere && !building.diagnostics.has_errors())
+        building.report(DiagnosticKind::EmptySelection, initial.where.span,
+                        fmt::format("this holds nowhere in `{}`", building.plan.bodies[body].name),
+                        "positions here are those that earlier entries of `initial` have set",
+                        Severity::Warning);
       for (const auto& [id, dart, value] : values) building.state().store.set(id, dart, value);
     }
   }

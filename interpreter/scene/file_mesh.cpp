@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "support/sort_once.h"
 #include "support/check.h"
 
 namespace gmsim::scene {
@@ -124,6 +125,30 @@ void keep_regions(const FileMesh& from, const std::vector<std::size_t>& kept,
   }
 }
 
+/// `place[cell]`: where a cell of the file goes.
+std::vector<MeshGroup> groups_of(const FileMesh& mesh, const std::vector<std::size_t>& place) {
+  std::map<std::string, MeshGroup> groups;
+  for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+    const std::int32_t number = mesh.regions[cell];
+    if (number == 0) continue;
+    const auto named = mesh.region_names.find({dimension_of(mesh.kinds[cell]), number});
+    MeshGroup& group = groups[named == mesh.region_names.end() ? fmt::format("group {}", number)
+                                                               : named->second];
+    const auto corners = mesh.corners.begin();
+    group.points.insert(group.points.end(), corners + static_cast<std::ptrdiff_t>(mesh.begin[cell]),
+                        corners + static_cast<std::ptrdiff_t>(mesh.begin[cell + 1]));
+    if (place[cell] != kNowhere) group.cells.push_back(static_cast<std::uint32_t>(place[cell]));
+  }
+  std::vector<MeshGroup> result;
+  for (auto& [name, group] : groups) {
+    group.name = name;
+    support::sort_once(group.points);
+    support::sort_once(group.cells);
+    result.push_back(std::move(group));
+  }
+  return result;
+}
+
 gmap::Mesh kept_cells(const FileMesh& from, const std::vector<std::size_t>& kept, int dimension) {
   gmap::Mesh to;
   to.dimension = dimension;
@@ -201,6 +226,7 @@ std::optional<ImportedMesh> select_cells(FileMesh mesh, const MeshImportOptions&
   if (options.keep_regions) keep_regions(mesh, kept, file, result.mesh, diagnostics);
   std::vector<std::size_t> place(mesh.cell_count(), kNowhere);
   for (std::size_t i = 0; i < kept.size(); ++i) place[kept[i]] = i;
+  if (options.keep_regions) result.groups = groups_of(mesh, place);
   result.cell_data = full_columns(mesh.cell_data, place, kept.size(), file, diagnostics);
   place.resize(mesh.points.size());
   std::iota(place.begin(), place.end(), std::size_t{0});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -24,10 +25,19 @@ struct MeshColumn {
   std::vector<double> values;  ///< components x rows, row after row
 };
 
+/// A physical group (.msh), group or object (.obj) of a mesh file, by its name; one without a name is
+/// called `group N`.
+struct MeshGroup {
+  std::string name;
+  std::vector<std::uint32_t> points;  ///< of its cells of any dimension, ascending
+  std::vector<std::uint32_t> cells;   ///< kept ones, ascending
+};
+
 struct ImportedMesh {
   gmap::Mesh mesh;
   std::vector<MeshColumn> point_data;
   std::vector<MeshColumn> cell_data;
+  std::vector<MeshGroup> groups;  ///< by ascending name
 };
 
 /// Reads a mesh file. `.msh` (Gmsh 1, 2.x, 4.1, text or binary) and `.obj` are read here, every

@@ -135,6 +135,23 @@ class Marker {
   ActingInteractions acting_;
 };
 
+/// A criterion of an interaction that acts nowhere.
+void warn_of_silence(Building& building, const engine::TearPairing& tear) {
+  const compile::Program& program = building.scene.program;
+  const compile::CriterionBody& body = program.criterion_bodies[tear.criterion];
+  if (!body.interaction) return;
+  std::string name;
+  for (std::uint32_t i = 0; i < program.interaction_bodies.size(); ++i)
+    if (program.interaction_bodies[i].id == *body.interaction) name = program.interactions[i].name;
+  const auto acts = [&](const engine::ActiveInteraction& active) {
+    return program.interaction_bodies[active.interaction].id == *body.interaction;
+  };
+  if (std::ranges::any_of(building.scene.model.interactions, acts)) return;
+  building.report(DiagnosticKind::EmptySelection, tear.span,
+                  fmt::format("`{}` never fires: `{}` acts nowhere in this scene", body.name, name),
+                  "give it under `interactions` of a body", Severity::Warning);
+}
+
 }  // namespace
 
 ActingInteractions mark_interactions(Building& building, engine::Matcher& matcher) {
@@ -149,11 +166,13 @@ ActingInteractions mark_interactions(Building& building, engine::Matcher& matche
 void bind_interactions(Building& building) {
   engine::Matcher matcher(building.state());
   const ActingInteractions acting = mark_interactions(building, matcher);
+  if (building.plan.bodies.size() > 1) building.scene.model.body_of_dart = building.dart_body;
   for (const auto& [interaction, uses] : acting) {
     if (building.diagnostics.has_errors()) return;
     if (auto active = bind_parameters(building, matcher, interaction, uses))
       building.scene.model.interactions.push_back(std::move(*active));
   }
+  for (const engine::TearPairing& tear : building.scene.model.tears) warn_of_silence(building, tear);
 }
 
 }  // namespace gmsim::scene

@@ -108,6 +108,15 @@ bool take_values(const MeshColumn& column, const gmap::EmbeddingDecl& declaratio
   return true;
 }
 
+/// 1 where the group is, else 0.
+MeshColumn column_of(const MeshGroup& group, const ImportedMesh& mesh, bool of_points) {
+  MeshColumn column{group.name, 1, {}};
+  column.values.resize(of_points ? mesh.mesh.points.size() : mesh.mesh.cell_count(), 0.0);
+  for (const std::uint32_t member : of_points ? group.points : group.cells)
+    column.values[member] = 1;
+  return column;
+}
+
 std::optional<MeshData> read_data(const YamlEntry& entry, const ImportedMesh& mesh,
                                   ReadContext& context) {
   const auto id = settable(entry, context);
@@ -126,11 +135,18 @@ std::optional<MeshData> read_data(const YamlEntry& entry, const ImportedMesh& me
   const std::vector<MeshColumn>& columns = data.of_points ? mesh.point_data : mesh.cell_data;
   const auto column = std::ranges::find(columns, entry.value.text, &MeshColumn::name);
   if (column == columns.end()) {
+    if (const auto group = std::ranges::find(mesh.groups, entry.value.text, &MeshGroup::name);
+        group != mesh.groups.end()) {
+      if (!take_values(column_of(*group, mesh, data.of_points), declaration, entry, context, data))
+        return std::nullopt;
+      return data;
+    }
     std::vector<std::string> names;
     for (const MeshColumn& known : columns) names.push_back(known.name);
+    for (const MeshGroup& known : mesh.groups) names.push_back(known.name);
     const std::string guess = support::did_you_mean(entry.value.text, names);
     context.report(DiagnosticKind::UnknownName, entry.value.span,
-                   fmt::format("the mesh has no data of {} called `{}`",
+                   fmt::format("the mesh has no data of {} and no group called `{}`",
                                data.of_points ? "points" : "cells", entry.value.text),
                    !guess.empty()  ? guess
                    : names.empty() ? "it has none"

@@ -22,7 +22,32 @@ void ReadContext::report(DiagnosticKind kind, support::Span place, std::string m
       {.kind = kind, .message = std::move(message), .place = place, .help = std::move(help)});
 }
 
-SceneExpression ReadContext::expression(const YamlNode& node, const check::WantedValue& wanted) {
+bool ReadContext::may_read(const types::Expr& expr, MayRead allowed) {
+  using types::ExprKind;
+  const auto first = [&](auto wanted) {
+    const types::Expr* found = nullptr;
+    (void)compile::any_node(expr, program.schema, [&](const types::Expr& node) {
+      if (wanted(node.kind)) found = &node;
+      return found != nullptr;
+    });
+    return found;
+  };
+  const types::Expr* force = first(
+      [](ExprKind kind) { return kind == ExprKind::ForceOn || kind == ExprKind::Forces; });
+  if (force != nullptr && allowed < MayRead::Forces) {
+    report(DiagnosticKind::NotAvailable, force->span, "forces cannot be read here",
+           "`where` and `threshold` of `tear`, output fields and `expect` read them");
+    return false;
+  }
+  const types::Expr* derivative = first([](ExprKind kind) { return kind == ExprKind::Grad; });
+  if (derivative == nullptr || allowed >= MayRead::Derivatives) return true;
+  report(DiagnosticKind::NotAvailable, derivative->span, "derivatives cannot be taken here",
+         "`grad` works in interactions and criteria");
+  return false;
+}
+
+SceneExpression ReadContext::expression(const YamlNode& node, const check::WantedValue& wanted,
+                                        MayRead allowed) {
   MappedText text = MappedText::of_value(sources, node);
   const support::FileId file = text.add_to(sources, sources.name(node.span.file));
   Diagnostics found;
@@ -33,6 +58,7 @@ SceneExpression ReadContext::expression(const YamlNode& node, const check::Wante
                          .span = node.span,
                          .text = text.text()};
   if (found.has_errors()) result.code.value = nullptr;
+  if (result.good() && !may_read(*result.code.value, allowed)) result.code.value = nullptr;
   if (result.good()) {
     result.constant = is_constant(*result.code.value);
     result.reads_clock = compile::reads_clock(*result.code.value, program.schema);
@@ -40,10 +66,10 @@ SceneExpression ReadContext::expression(const YamlNode& node, const check::Wante
   return result;
 }
 
-SceneExpression ReadContext::where(const YamlNode& section) {
+SceneExpression ReadContext::where(const YamlNode& section, MayRead allowed) {
   const YamlNode* node = section.find("where");
   if (node == nullptr) return {};
-  return expression(*node, {.type = {types::ValueKind::Bool}});
+  return expression(*node, {.type = {types::ValueKind::Bool}}, allowed);
 }
 
 std::optional<types::Value> ReadContext::constant(const SceneExpression& expression,
@@ -109,8 +135,8 @@ void ReadContext::report_unknown_item(const std::string& name, support::Span spa
   if (help.empty()) help = support::did_you_mean(name, names);
   if (help.empty())
     help = fmt::format(
-        "`gmsim list {}s --dimension {}` shows what there is; files of your own go under `rules:`",
-        kind.substr(0, kind.find(' ')), dimension());
+        "`gmsim list {} --dimension {}` shows what there is; files of your own go under `rules:`",
+        kind == "criterion" ? "criteria" : kind.substr(0, kind.find(' ')) + "s", dimension());
   report(DiagnosticKind::UnknownItem, span,
          fmt::format("no {} named `{}` in dimension {}", kind, name, dimension()), std::move(help));
 }

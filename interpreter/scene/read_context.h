@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,6 +17,10 @@
 #include "support/source_map.h"
 
 namespace gmsim::scene {
+
+/// What an expression may read besides values: forces are known while a scene runs, derivatives
+/// only where expressions become part of a criterion's kernel.
+enum class MayRead : std::uint8_t { Values, Forces, Derivatives };
 
 /// What reading a validated scene needs: the checked rules, and where messages go.
 class ReadContext {
@@ -43,9 +48,10 @@ class ReadContext {
               std::string help = {});
 
   /// Checks an expression; what is wrong is reported where it stands in the scene.
-  [[nodiscard]] SceneExpression expression(const YamlNode& node, const check::WantedValue& wanted);
+  [[nodiscard]] SceneExpression expression(const YamlNode& node, const check::WantedValue& wanted,
+                                           MayRead may_read = MayRead::Values);
   /// A `where` (always there in a validated scene).
-  [[nodiscard]] SceneExpression where(const YamlNode& section);
+  [[nodiscard]] SceneExpression where(const YamlNode& section, MayRead may_read = MayRead::Values);
   /// Its value where that is the same everywhere and always, else an error.
   [[nodiscard]] std::optional<types::Value> constant(const SceneExpression& expression,
                                                      const std::string& what);
@@ -53,6 +59,9 @@ class ReadContext {
   [[nodiscard]] std::int64_t integer(const YamlNode& node) {
     return static_cast<std::int64_t>(number(node));
   }
+
+  /// Reports what an expression reads and may not. True: nothing.
+  bool may_read(const types::Expr& expr, MayRead allowed);
 
   /// The body that a section names; empty when it names none or (reported) an unknown one.
   [[nodiscard]] std::optional<std::size_t> body(const YamlNode& section);

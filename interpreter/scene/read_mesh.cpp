@@ -194,6 +194,14 @@ void place(Mesh& mesh, const YamlNode& placing, ReadContext& context) {
     for (std::size_t k = 0; k < 3; ++k) point[k] += shift[k];
 }
 
+/// Was something wrong in this part of the scene?
+bool reported_within(support::Span span, const ReadContext& context) {
+  return std::ranges::any_of(context.diagnostics.all(), [&](const support::Diagnostic& problem) {
+    return problem.place && problem.place->file == span.file && problem.place->begin >= span.begin &&
+           problem.place->end <= span.end;
+  });
+}
+
 /// The one key of a mesh that says where it comes from; empty (reported) when it is not one.
 const YamlEntry* source_of(const YamlNode& mesh, ReadContext& context) {
   const YamlEntry* source = nullptr;
@@ -209,6 +217,7 @@ const YamlEntry* source_of(const YamlNode& mesh, ReadContext& context) {
   }
   const bool cells = mesh.find("cells") != nullptr;
   if (source != nullptr && cells == (source->key == "points")) return source;
+  if (reported_within(mesh.span, context)) return nullptr;  // what is wrong was taken out
   if (source == nullptr || source->key == "points")
     context.report(DiagnosticKind::MissingKey, mesh.span,
                    cells    ? "`cells` need `points`"

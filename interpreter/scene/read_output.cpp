@@ -5,6 +5,7 @@
 
 #include "scene/quantity.h"
 #include "scene/read_run.h"
+#include "support/field_name.h"
 
 namespace gmsim::scene {
 namespace {
@@ -36,15 +37,26 @@ std::optional<OutputField> read_field(const YamlNode& node, ReadContext& context
   const YamlNode* name = node.is_scalar() ? &node : node.find("name");
   const YamlNode* value = node.is_scalar() ? &node : node.find("value");
   if (name == nullptr || value == nullptr) return std::nullopt;
-  const SceneExpression expression = context.expression(*value, {});
+  const SceneExpression expression = context.expression(*value, {}, MayRead::Forces);
   if (!storable(expression, context)) return std::nullopt;
-  OutputField field{.name = name->text,
+  OutputField field{.name = node.is_scalar() ? support::field_name(name->text) : name->text,
                     .text = expression.text,
                     .orbit = {},
                     .type = expression.code.value->type,
                     .unit = expression.code.value->unit,
                     .value = expression.code,
                     .span = value->span};
+  if (!support::is_field_name(field.name)) {
+    context.report(DiagnosticKind::WrongForm, name->span,
+                   fmt::format("`{}` cannot be the name of a field", field.name),
+                   fmt::format("`{}` can", support::field_name(field.name)));
+    return std::nullopt;
+  }
+  if (field.name == "velocity" && field.text != "velocity") {
+    context.report(DiagnosticKind::DuplicateName, name->span,
+                   "every frame has a field `velocity` already", "choose another name");
+    return std::nullopt;
+  }
   if (const YamlNode* on = node.is_map() ? node.find("on") : nullptr) {
     const auto orbit = context.orbit(*on);
     if (!orbit) return std::nullopt;
@@ -103,7 +115,7 @@ class ExpectationReader {
   }
 
   bool read_value(const YamlNode& value, Expectation& expectation) {
-    const SceneExpression expression = context_.expression(value, {});
+    const SceneExpression expression = context_.expression(value, {}, MayRead::Forces);
     if (!storable(expression, context_)) return false;
     expectation.span = value.span;
     expectation.text = expression.text;

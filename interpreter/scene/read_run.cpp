@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "engine/integrators.h"
+
 namespace gmsim::scene {
 namespace {
 
@@ -61,6 +63,11 @@ class RunReader {
     settings.atol_velocity = number(*section.find("atol_velocity"));
     settings.dt_min = number(*section.find("dt_min"));
     settings.dt_max = number(*section.find("dt_max"));
+    settings.span = section.find("method")->span;
+    if (auto problem = engine::settings_problem(settings)) diagnostics_.report(std::move(*problem));
+    settings.span.reset();
+    for (const YamlNode* node : {section.find("method"), &dt})
+      if (!node->is_default) settings.span = node->span;
     if (settings.dt_max > 0 && settings.dt_min > settings.dt_max)
       diagnostics_.report(
           {.kind = DiagnosticKind::OutOfRange,

@@ -14,9 +14,10 @@ namespace {
 using support::DiagnosticKind;
 
 /// A `where` that is more than `true`.
-std::optional<engine::DartExpression> condition(const YamlNode& section, ReadContext& context) {
+std::optional<engine::DartExpression> condition(const YamlNode& section, ReadContext& context,
+                                                MayRead allowed) {
   const YamlNode* node = section.find("where");
-  const SceneExpression where = context.where(section);
+  const SceneExpression where = context.where(section, allowed);
   if (!where.good() || (node != nullptr && node->is_default)) return std::nullopt;
   return where.code;
 }
@@ -27,7 +28,7 @@ class TearReader {
       : section_(section), context_(context), program_(context.program) {}
 
   std::optional<engine::TearPairing> read() {
-    tear_.where = condition(section_, context_);
+    tear_.where = condition(section_, context_, MayRead::Forces);
     const bool known = find_criterion();
     const auto change = find_change(known);
     if (!known) return std::nullopt;
@@ -86,15 +87,18 @@ class TearReader {
   void read_threshold() {
     const compile::Parameter* parameter = criterion().find_parameter("threshold");
     const YamlNode* node = section_.find("threshold");
-    if (parameter == nullptr || node == nullptr) return;
+    if (parameter == nullptr) return;
+    tear_.threshold = parameter->slot;
+    if (node == nullptr) return;
     const auto& declared = context_.library().criteria[tear_.criterion].parameters;
     const auto threshold = std::ranges::find(declared, "threshold", &check::Parameter::name);
     const double scale = threshold == declared.end() ? 1.0 : threshold->unit_scale;
     const SceneExpression value = context_.expression(
-        *node, {.type = parameter->type, .unit = parameter->unit, .unit_scale = scale});
-    tear_.threshold = parameter->slot;
+        *node, {.type = parameter->type, .unit = parameter->unit, .unit_scale = scale},
+        MayRead::Derivatives);
+    if (!value.good()) return;
     tear_.parameters.push_back({parameter->slot, value.code});
-    if (!value.good() || !value.constant) return;
+    if (!value.constant) return;
     const auto constant = context_.constant(value, "`threshold`");
     if (constant && constant->as_real() > 0) return;
     context_.report(DiagnosticKind::OutOfRange, node->span, "a threshold must be above 0");
@@ -147,7 +151,8 @@ class TearReader {
       tear_.parameters.push_back(
           {of_criterion->slot, context_.expression(entry.value, {.type = of_criterion->type,
                                                                  .unit = of_criterion->unit,
-                                                                 .unit_scale = scale})
+                                                                 .unit_scale = scale},
+                                                   MayRead::Derivatives)
                                    .code});
     }
     if (!of_change) {
@@ -210,7 +215,7 @@ std::vector<engine::StandingRewrite> read_rewrites(const YamlNode& scene, ReadCo
     const YamlNode* apply = section.find("apply");
     engine::StandingRewrite rewrite{.change = {},
                                     .to = {},
-                                    .where = condition(section, context),
+                                    .where = condition(section, context, MayRead::Values),
                                     .parameters = {},
                                     .span = section.span};
     const auto change = apply ? read_change(*apply, context) : std::optional<engine::NamedChange>{};

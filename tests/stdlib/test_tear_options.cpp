@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "stdlib/criterion_scene.h"
+#include "support/diagnostic.h"
 
 namespace gmsim::test {
 namespace {
@@ -52,6 +53,33 @@ TEST_CASE("thresholds: numbers, units, expressions, values of cells") {
         Places{1.5});
 }
 
+TEST_CASE("thresholds and conditions read forces, on orbits that nothing else reads too") {
+  // Inside the strip the springs on a vertex or a face are in balance, at its ends they are not.
+  const auto with = [](const std::string& more) {
+    return strip(4, "when: atomic_facet_force, threshold: " + more);
+  };
+  CHECK(torn(with("\"119 [N] + norm(force_on(vertex(a)))\"")) == kAll);
+  CHECK(torn(with("\"119 [N] + norm(force_on(face(a)))\"")) == kAll);
+  CHECK(torn(with("\"200 [N] - norm(force_on(halfedge(a)))\"")) == Places{});
+  CHECK(torn(with("1, where: \"norm(force_on(vertex(a))) < 1e-6\"")) == kAll);
+  CHECK(torn(with("1, where: \"norm(force_on(vertex(a))) > 1e-6\"")) == Places{});
+  CHECK(torn(with("1, where: \"max(f in forces(vertex(a)) : norm(f)) > 29 [N]\"")) == kAll);
+  CHECK(torn(with("1, where: \"max(f in forces(vertex(a)) : norm(f)) > 31 [N]\"")) == Places{});
+}
+
+TEST_CASE("what may not tear does not come near to tearing") {
+  const std::string line = "when: atomic_facet_force, threshold: 100";
+  CHECK(CriterionScene(strip(4, line), kStrength).ratios().size() == 3);
+  CriterionScene scene(strip(4, line + ", where: \"position.x > 4\""), kStrength);
+  const std::vector<double> ratios = scene.ratios();
+  REQUIRE(ratios.size() == 1);
+  CHECK(ratios[0] == doctest::Approx(1.2));
+  support::Diagnostics diagnostics;
+  const auto reports = scene.simulation().survey(diagnostics);
+  REQUIRE(reports);
+  CHECK(reports->at(0).nearest.position[0] == doctest::Approx(4.5));
+}
+
 TEST_CASE("a threshold that is not above 0 somewhere stops the run and says where") {
   CriterionScene scene(strip(4, "when: atomic_facet_force, threshold: \"1 [N/m] * (position.x - 2 [m])\""),
                        kStrength);
@@ -92,7 +120,7 @@ TEST_CASE("thresholds from the cells of a mesh file") {
     return std::string();
   };
   CHECK(error("strength: toughness", "strength: toughnes").find("did you mean `toughness`?") != std::string::npos);
-  CHECK(error("push: push }", "push: toughness }").find("no data of points called `toughness`") !=
+  CHECK(error("push: push }", "push: toughness }").find("no data of points and no group called `toughness`") !=
         std::string::npos);
   CHECK(error("push: push }", "velocity: push, mass: push }").find("`mass` cannot be set") != std::string::npos);
   CHECK(error("push: push }", "fixed: push }").find("has 3 components") != std::string::npos);

@@ -1,0 +1,1 @@
+view x.vtkhdf --frames 0

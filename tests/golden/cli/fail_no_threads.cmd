@@ -1,0 +1,1 @@
+run x.yaml --threads 0

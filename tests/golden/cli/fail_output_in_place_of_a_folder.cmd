@@ -1,0 +1,1 @@
+run tests/golden/run/expectations_met.yaml -o tests/golden
