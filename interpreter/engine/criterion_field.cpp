@@ -147,7 +147,7 @@ struct CriterionField::Part {
   ForceKernel judged;                   // value, and threshold unless uniform
   ForceProgram results;
   IrEvaluator<double> evaluator;  // of results
-  std::vector<InputBinding> inputs;  // of judged
+  std::vector<InputBinding> bindings;  // of judged
   std::vector<double> values, thresholds, ratios;
 };
 
@@ -265,9 +265,9 @@ CriterionField::Diagnostic CriterionField::judge_part(Part& part, std::uint32_t 
   const std::uint32_t count = part.table.size();
   part.values.resize(count);
   if (!part.uniform) part.thresholds.resize(count);
-  part.judged.bind(part.table, context_.state.store, moment, part.inputs);
+  part.judged.bind(part.table, context_.state.store, moment, part.bindings);
   const OutputBinding outputs[] = {{part.values.data(), 1}, {part.thresholds.data(), 1}};
-  if (const auto row = part.judged.run(part.table, part.inputs,
+  if (const auto row = part.judged.run(part.table, part.bindings,
                                        std::span(outputs).first(part.uniform ? 1 : 2), 0, count,
                                        scratch_)) {
     const ForceMatch match = part.table.match(*row, shape);

@@ -33,17 +33,18 @@ void sort_by_ratio(std::vector<TearRequest>& requests) {
 }  // namespace
 
 void choose_strongest(std::vector<TearRequest>& requests, std::optional<std::uint32_t> at_most) {
+  if (at_most == 0u) requests.clear();
+  if (at_most && requests.size() > *at_most) {
+    // The weakest that is taken, whatever its place among its ties.
+    std::vector<double> ratios;
+    for (const TearRequest& request : requests) ratios.push_back(request.ratio());
+    std::nth_element(ratios.begin(), ratios.begin() + (*at_most - 1), ratios.end(), std::greater<>());
+    const double weakest = ratios[*at_most - 1];
+    std::erase_if(requests, [&](const TearRequest& request) {
+      return request.ratio() < weakest * (1 - kTie);
+    });
+  }
   sort_by_ratio(requests);
-  if (!at_most || requests.size() <= *at_most) return;
-  if (*at_most == 0) return requests.clear();
-  // The weakest that is taken, whatever its place among its ties.
-  std::vector<double> ratios;
-  for (const TearRequest& request : requests) ratios.push_back(request.ratio());
-  std::nth_element(ratios.begin(), ratios.begin() + (*at_most - 1), ratios.end(), std::greater<>());
-  const double weakest = ratios[*at_most - 1];
-  std::erase_if(requests, [&](const TearRequest& request) {
-    return request.ratio() < weakest * (1 - kTie);
-  });
 }
 
 void order_requests(std::vector<TearRequest>& requests) { sort_by_ratio(requests); }
