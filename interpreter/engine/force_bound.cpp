@@ -165,7 +165,7 @@ ElementBounds::Largest ElementBounds::largest() const {
   Largest result;
   for (const Piece& piece : pieces_) {
     const double value = eigenvalue(piece, totals, result.value);
-    if (value > result.value) result = {value, piece.where, piece.interaction};
+    if (value > result.value) result = {value, piece.where, context_.active[piece.interaction].interaction};
   }
   return result;
 }

@@ -38,7 +38,7 @@ class ElementBounds {
   struct Largest {
     double value = 0;
     DartId where = gmap::kNoDart;   ///< of the stiffest match of the piece
-    std::uint32_t interaction = 0;  ///< number of the interaction at work
+    std::uint32_t interaction = 0;  ///< index into Program::interactions
   };
   /// Infinite where something stiff stands on no mass.
   [[nodiscard]] Largest largest() const;

@@ -90,7 +90,7 @@ bool KernelForces::element_bound(const Motion& motion, double time, ElementBound
   bound = {.stiffness = stiffness.value,
            .damping = damping.value,
            .where = stiffness.where,
-           .interaction = context_.active[stiffness.interaction].interaction};
+           .interaction = stiffness.interaction};
   return true;
 }
 

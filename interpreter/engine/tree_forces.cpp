@@ -205,7 +205,7 @@ bool TreeForces::element_bound(const Motion& motion, double time, ElementBound& 
   bound = {.stiffness = largest.value,
            .damping = damping.largest().value,
            .where = largest.where,
-           .interaction = context_.active[largest.interaction].interaction};
+           .interaction = largest.interaction};
   return true;
 }
 
