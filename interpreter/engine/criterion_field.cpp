@@ -283,7 +283,8 @@ CriterionField::Diagnostic CriterionField::judge_part(Part& part, std::uint32_t 
     const bool fires = part.values[row] > part.threshold(row);
     if ((!(measure[row] >= best) && !fires) || measure[row] == kNotJudged || part.table.vacant(row))
       continue;
-    if (!best_row || measure[row] > best || hook(part, row) < hook(part, *best_row)) {
+    if (!best_row || measure[row] > best ||
+        (measure[row] == best && hook(part, row) < hook(part, *best_row))) {
       best = measure[row];
       best_row = row;
     }

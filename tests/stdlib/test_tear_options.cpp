@@ -80,6 +80,30 @@ TEST_CASE("what may not tear does not come near to tearing") {
   CHECK(reports->at(0).nearest.position[0] == doctest::Approx(4.5));
 }
 
+TEST_CASE("the nearest is the strongest, whatever the order in which others are judged") {
+  // Two rows of quads that are longer to the right, cut through on the left. The edge between the rows there then ends at
+  // three edges, as the last one does, which is longer: it is judged after that one, and has an older dart.
+  const std::string rules =
+      "criterion far on facet(a) {\n  match a -n- b;\n"
+      "  value edge_length(a) * (1 + 0 * count(x in vertex(a) / edge));\n}\n"
+      "criterion cut on facet(a) {\n  match a -n- b;\n"
+      "  value if abs(a.position.x - 1.1 [m]) + abs(a@0.position.x - 1.1 [m]) < 0.01 [m] then 1 else 0;\n}\n";
+  CriterionScene scene(
+      "dimension: 2\nrules: [tear, ./my.rule]\n"
+      "bodies:\n  - mesh: { grid: { patches: [6, 2], size: [6, 2] } }\n    mass: 1\n"
+      "    initial: [ { position: \"(position.x + 0.1 [1/m] * position.x * position.x, position.y, 0)\" } ]\n"
+      "tear: [ { when: far, threshold: 0.5, do: separate_elements, after: 1.5e-6 }, "
+      "{ when: cut, threshold: 0.5, do: separate_elements } ]\n"
+      "integrator: { dt: 1e-6 }\nduration: 1\n",
+      rules);
+  CHECK(scene.step().events.size() == 2);
+  CHECK(scene.step().events.size() > 2);
+  support::Diagnostics diagnostics;
+  const auto reports = scene.simulation().survey(diagnostics);
+  REQUIRE(reports);
+  CHECK(reports->at(0).nearest.value == doctest::Approx(2.1));
+}
+
 TEST_CASE("a threshold that is not above 0 somewhere stops the run and says where") {
   CriterionScene scene(strip(4, "when: atomic_facet_force, threshold: \"1 [N/m] * (position.x - 2 [m])\""),
                        kStrength);
