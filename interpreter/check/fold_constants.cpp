@@ -14,11 +14,6 @@ namespace {
 /// Powers up to this exponent are products, so their value does not depend on a library's pow().
 constexpr int kLargestPower = 16;
 
-bool is_scalar(const ValueType& type) {
-  return !type.is_array() && (type.kind == ValueKind::Bool || type.kind == ValueKind::Int ||
-                              type.kind == ValueKind::Real || type.kind == ValueKind::Zero);
-}
-
 std::optional<double> power(double base, double exponent) {
   const double whole = std::trunc(exponent);
   if (whole != exponent || std::abs(whole) > kLargestPower) return std::nullopt;
@@ -51,10 +46,10 @@ std::optional<double> arithmetic(ExprKind kind, double a, double b) {
 std::optional<std::vector<double>> componentwise(ExprKind kind, const Value& a, const Value& b) {
   const bool same_size = a.data.size() == b.data.size();
   const bool scaled = kind == ExprKind::Mul || kind == ExprKind::Div;
-  const bool both_scalar = is_scalar(a.type) && is_scalar(b.type);
+  const bool both_scalar = types::is_scalar(a.type) && types::is_scalar(b.type);
   const bool sum = kind == ExprKind::Add || kind == ExprKind::Sub;
-  const bool scalar_b = is_scalar(b.type);
-  const bool scalar_a = is_scalar(a.type) && kind == ExprKind::Mul;
+  const bool scalar_b = types::is_scalar(b.type);
+  const bool scalar_a = types::is_scalar(a.type) && kind == ExprKind::Mul;
   if (!(both_scalar || (sum && same_size) || (scaled && (scalar_b || scalar_a))))
     return std::nullopt;
   std::vector<double> data;

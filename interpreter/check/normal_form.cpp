@@ -14,11 +14,6 @@ namespace {
 /// Expressions that a person writes need some hundreds of steps.
 constexpr int kMostWork = 100'000;
 
-bool is_scalar(const types::ValueType& type) {
-  return !type.is_array() && (type.kind == ValueKind::Bool || type.kind == ValueKind::Int ||
-                              type.kind == ValueKind::Real || type.kind == ValueKind::Zero);
-}
-
 /// Links over which a dart can be moved without changing whether its link i is free.
 types::OrbitType commuting_links(int i, int n) {
   types::OrbitType type{i};
@@ -78,7 +73,7 @@ NormalForms::Form NormalForms::compute(const Expr& expr) {
   switch (expr.kind) {
     case ExprKind::Literal:
       if (expr.type.kind == ValueKind::Zero) return value({});
-      if (is_scalar(expr.type) && expr.type.kind != ValueKind::Bool) {
+      if (types::is_scalar(expr.type) && expr.type.kind != ValueKind::Bool) {
         const double x = expr.value.as_real();
         return value(x == 0 ? Sum{} : Sum{{Product{}, x}});
       }
@@ -327,7 +322,7 @@ Sum NormalForms::atom(const std::string& key, bool scalar) {
 }
 
 Sum NormalForms::atom(const std::string& key, const Expr& expr) {
-  return atom(key, is_scalar(expr.type));
+  return atom(key, types::is_scalar(expr.type));
 }
 
 }  // namespace gmsim::check

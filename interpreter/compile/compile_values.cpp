@@ -12,18 +12,8 @@ using types::ExprKind;
 using types::ValueKind;
 
 std::uint32_t lane_components(const types::ValueType& type) {
-  if (type.kind == ValueKind::EigenPair) return 4;
-  const bool one = type.kind == ValueKind::Zero || type.kind == ValueKind::Dart;
-  return one ? 1 : types::component_count(type);
+  return type.kind == ValueKind::Dart ? 1 : types::number_count(type);
 }
-
-namespace {
-
-bool is_scalar(const types::ValueType& type) {
-  return (type.kind <= ValueKind::Real || type.kind == ValueKind::Zero) && type.extents.empty();
-}
-
-}  // namespace
 
 ValueProgram compile_values(const Rule& rule, const gmap::EmbeddingSchema& schema,
                             const std::vector<bool>& in_use) {
@@ -266,8 +256,8 @@ ValueId ValueCompiler::product(const Expr& expr) {
   const std::uint32_t count = lane_components(expr.type);
   const ValueId a = number(left), b = number(right);
   if (count == 1) return make(ValueOp::Multiply, 1, {a, b});
-  if (is_scalar(left.type)) return make(ValueOp::Scale, count, {a, b});
-  if (is_scalar(right.type)) return make(ValueOp::Scale, count, {b, a});
+  if (types::is_scalar(left.type)) return make(ValueOp::Scale, count, {a, b});
+  if (types::is_scalar(right.type)) return make(ValueOp::Scale, count, {b, a});
   ValueInstruction product{
       .op = ValueOp::Product, .count = count, .args = {a, b, LaneDomain::kNone}};
   product.left = left.type.kind;

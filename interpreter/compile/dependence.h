@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -42,5 +43,21 @@ struct Dependence {
   types::DartId dart = types::kNoDart;
   Aspects what = 0;
 };
+
+/// Ascending by `of`, one entry for each with all that is said of it.
+template <typename Entry>
+void merge_aspects(std::vector<Entry>& entries, types::DartId Entry::* of) {
+  if (entries.empty()) return;
+  std::sort(entries.begin(), entries.end(),
+            [of](const Entry& a, const Entry& b) { return a.*of < b.*of; });
+  auto last = entries.begin();
+  for (auto next = last + 1; next != entries.end(); ++next) {
+    if ((*next).*of == (*last).*of)
+      last->what |= next->what;
+    else
+      *++last = *next;
+  }
+  entries.erase(last + 1, entries.end());
+}
 
 }  // namespace gmsim::compile

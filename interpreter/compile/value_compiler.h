@@ -109,7 +109,7 @@ class ValueCompiler {
   DomainId rows_ = 0;   ///< of the assignment at hand
 };
 
-/// Doubles that hold a value; the literal 0 takes one, an eigenpair four, a dart counts as one.
+/// As types::number_count; a dart counts as one.
 [[nodiscard]] std::uint32_t lane_components(const types::ValueType& type);
 
 }  // namespace gmsim::compile

@@ -64,7 +64,7 @@ Criteria::Diagnostic Criteria::repair(const Effects& effects, const MapDelta& de
   // Matches that go through single forces depend on the lists of their darts.
   with_lists_ = delta.darts;
   for (const DartId dart : relisted_) with_lists_.push_back({dart, compile::kForceList});
-  merge_by_dart(with_lists_);
+  compile::merge_aspects(with_lists_, &compile::Dependence::dart);
   std::size_t shapes_before = 0, shapes = 0;
   for (const auto& field : fields_) {
     shapes_before += field->shape_count();

@@ -12,7 +12,6 @@ namespace gmsim::engine {
 namespace {
 
 using Diagnostic = std::optional<support::Diagnostic>;
-using Reason = MatchFailure::Reason;
 
 /// Goes through the orbits and tries their darts.
 class Enumerator {
@@ -46,7 +45,7 @@ class Enumerator {
       if (at != orbit.end()) {
         visit(*at, match, frame);
       } else if (without_first) {
-        return no_first(DartId{i});
+        return no_first(wanted_.orbit, DartId{i}, *wanted_.first);
       }
     }
     return std::nullopt;
@@ -62,28 +61,10 @@ class Enumerator {
 
   bool holds(DartId d, Frame& frame, Match& match, bool& without_first) {
     if (wanted_.where && !wanted_.where(d)) return false;
-    if (!matcher_.match(plan_, {&d, 1}, frame, match)) {
-      if (matcher_.failure().reason == Reason::Error) error_ = matcher_.failure().error;
-      return false;
-    }
-    if (wanted_.first == nullptr) return true;
-    frame.set(wanted_.first_dart, d);
-    bool first = false;
-    if (!matcher_.evaluator().evaluate_bool(*wanted_.first, frame, first)) {
-      EvalFailure failure = matcher_.evaluator().take_failure();
-      if (!failure.missing_optional) error_ = std::move(failure.diagnostic);
-      return false;
-    }
-    without_first = without_first || !first;
-    return first;
-  }
-
-  [[nodiscard]] Diagnostic no_first(DartId d) const {
-    return support::Diagnostic{
-        support::DiagnosticKind::NoMatch,
-        fmt::format("no dart of the {} orbit of dart {} meets the condition of `first`",
-                    types::to_string(wanted_.orbit), types::index(d)),
-        wanted_.first->span};
+    const Start start =
+        start_at(matcher_, plan_, wanted_.first, wanted_.first_dart, d, frame, match, error_);
+    without_first = without_first || start == Start::NotFirst;
+    return start == Start::Yes;
   }
 
   Matcher& matcher_;
@@ -94,6 +75,31 @@ class Enumerator {
 };
 
 }  // namespace
+
+Start start_at(Matcher& matcher, const compile::MatchPlan& plan, const types::Expr* first,
+               Slot first_dart, DartId dart, Frame& frame, Match& found,
+               std::optional<support::Diagnostic>& error) {
+  if (!matcher.match(plan, {&dart, 1}, frame, found)) {
+    if (matcher.failure().reason == MatchFailure::Reason::Error) error = matcher.failure().error;
+    return Start::No;
+  }
+  if (first == nullptr) return Start::Yes;
+  frame.set(first_dart, dart);
+  bool holds = false;
+  if (!matcher.evaluator().evaluate_bool(*first, frame, holds)) {
+    EvalFailure failure = matcher.evaluator().take_failure();
+    if (!failure.missing_optional) error = std::move(failure.diagnostic);
+    return Start::No;
+  }
+  return holds ? Start::Yes : Start::NotFirst;
+}
+
+support::Diagnostic no_first(OrbitType orbit, DartId dart, const types::Expr& first) {
+  return {support::DiagnosticKind::NoMatch,
+          fmt::format("no dart of the {} orbit of dart {} meets the condition of `first`",
+                      types::to_string(orbit), types::index(dart)),
+          first.span};
+}
 
 std::optional<support::Diagnostic> for_each_match(
     Matcher& matcher, const State& state, const compile::MatchPlan& plan, std::uint32_t frame_size,

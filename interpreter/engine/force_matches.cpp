@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/force_matches.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "engine/enumerate.h"
 #include "gmap/orbit_walk.h"
 
 namespace gmsim::engine {
@@ -71,35 +70,18 @@ std::optional<support::Diagnostic> ForceMatches::choose_dart(DartId& chosen) {
   bool without_first = false;
   for (const DartId d : candidates) {
     frame_.reset(pattern_.frame_size);
-    if (!matcher_.match(pattern_.match, {&d, 1}, frame_, found_)) {
-      if (matcher_.failure().reason == MatchFailure::Reason::Error) return matcher_.failure().error;
-      continue;
-    }
-    bool first = decided || pattern_.first == nullptr;
-    if (!first) {
-      if (Diagnostic error = judge_first(d, first)) return error;
-      without_first = without_first || !first;
-    }
-    if (!first) continue;
+    Diagnostic error;
+    const Start start = start_at(matcher_, pattern_.match, decided ? nullptr : pattern_.first.get(),
+                                 pattern_.first_dart, d, frame_, found_, error);
+    if (error) return error;
+    without_first = without_first || start == Start::NotFirst;
+    if (start != Start::Yes) continue;
     if (pattern_.first != nullptr) first_[types::index(d)] = true;
     chosen = d;
     return std::nullopt;
   }
   if (!without_first) return std::nullopt;
-  return support::Diagnostic{
-      support::DiagnosticKind::NoMatch,
-      fmt::format("no dart of the {} orbit of dart {} meets the condition of `first`",
-                  types::to_string(pattern_.orbit), types::index(orbit_.front())),
-      pattern_.first->span};
-}
-
-std::optional<support::Diagnostic> ForceMatches::judge_first(DartId d, bool& first) {
-  frame_.set(pattern_.first_dart, d);
-  if (matcher_.evaluator().evaluate_bool(*pattern_.first, frame_, first)) return std::nullopt;
-  first = false;
-  EvalFailure failure = matcher_.evaluator().take_failure();
-  if (failure.missing_optional) return std::nullopt;
-  return std::move(failure.diagnostic);
+  return no_first(pattern_.orbit, orbit_.front(), *pattern_.first);
 }
 
 std::optional<support::Diagnostic> ForceMatches::enter(const Visit& visit) {

@@ -62,7 +62,6 @@ class ForceMatches {
   [[nodiscard]] bool carries(DartId d) const;
   /// The dart of `orbit_` at which the pattern holds, kNoDart when there is none.
   Diagnostic choose_dart(DartId& chosen);
-  Diagnostic judge_first(DartId d, bool& first);
   Diagnostic enter(const Visit& visit);
 
   const ForceContext& context_;

@@ -49,20 +49,6 @@ void add_changed_orbits(const gmap::GMap& map, const OrbitEvents& events,
 
 }  // namespace
 
-void merge_by_dart(std::vector<Dependence>& darts) {
-  if (darts.empty()) return;
-  std::sort(darts.begin(), darts.end(),
-            [](const Dependence& a, const Dependence& b) { return a.dart < b.dart; });
-  auto last = darts.begin();
-  for (auto next = last + 1; next != darts.end(); ++next) {
-    if (next->dart == last->dart)
-      last->what |= next->what;
-    else
-      *++last = *next;
-  }
-  darts.erase(last + 1, darts.end());
-}
-
 MapDelta map_delta(const State& state, const Effects& effects) {
   MapDelta delta;
   const Aspects relinked =
@@ -75,7 +61,7 @@ MapDelta map_delta(const State& state, const Effects& effects) {
     add_orbit(state.map, orbit.type, orbit.dart, compile::kEverything, delta.darts);
   for (const OrbitEvents& events : effects.orbits)
     add_changed_orbits(state.map, events, delta.darts);
-  merge_by_dart(delta.darts);
+  compile::merge_aspects(delta.darts, &Dependence::dart);
   const OrbitType vertex = OrbitType::cell(0, state.map.dimension());
   if (const gmap::OrbitRepair* repair = effects.find(vertex)) {
     for (const gmap::OrbitChange& change : repair->orbits) delta.vertices.push_back(change.row);

@@ -18,7 +18,4 @@ struct MapDelta {
 
 [[nodiscard]] MapDelta map_delta(const State& state, const Effects& effects);
 
-/// Ascending by dart, each dart once with all that is said of it.
-void merge_by_dart(std::vector<compile::Dependence>& darts);
-
 }  // namespace gmsim::engine

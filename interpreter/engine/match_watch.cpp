@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/match_watch.h"
 
-#include <algorithm>
-
 #include "gmap/orbit_walk.h"
 
 namespace gmsim::engine {
@@ -69,14 +67,8 @@ void MatchWatch::add_excluded(const ForceMatch& match) {
 }
 
 void MatchWatch::enter(DartId key) {
-  std::sort(darts_.begin(), darts_.end(),
-            [](const Dependence& a, const Dependence& b) { return a.dart < b.dart; });
-  for (std::size_t k = 0; k < darts_.size();) {
-    DartWatch::Entry entry{key, 0};
-    const DartId dart = darts_[k].dart;
-    for (; k < darts_.size() && darts_[k].dart == dart; ++k) entry.what |= darts_[k].what;
-    watch_.add(dart, entry);
-  }
+  compile::merge_aspects(darts_, &Dependence::dart);
+  for (const auto& [dart, what] : darts_) watch_.add(dart, {key, what});
 }
 
 void MatchWatch::find_stale(std::span<const Dependence> changed, std::vector<StaleMatch>& stale,
@@ -91,17 +83,7 @@ void MatchWatch::find_stale(std::span<const Dependence> changed, std::vector<Sta
       if (what == compile::kEverything || (what & compile::links(of.links)) != 0)
         hooks.push_back(follow(map, dart, of.to_hook));
   }
-  if (stale.empty()) return;
-  std::sort(stale.begin(), stale.end(),
-            [](const StaleMatch& a, const StaleMatch& b) { return a.key < b.key; });
-  auto last = stale.begin();
-  for (const StaleMatch& match : std::span(stale).subspan(1)) {
-    if (match.key == last->key)
-      last->what |= match.what;
-    else
-      *++last = match;
-  }
-  stale.erase(last + 1, stale.end());
+  compile::merge_aspects(stale, &StaleMatch::key);
 }
 
 }  // namespace gmsim::engine

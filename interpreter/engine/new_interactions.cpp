@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
+#include "engine/enumerate.h"
 #include "engine/evaluate_at.h"
 #include "gmap/orbit_walk.h"
 
@@ -50,19 +52,11 @@ bool NewInteractions::start_match(const compile::RootedPattern& pattern,
                                   std::span<const DartId> orbit, DartId& start,
                                   Diagnostic& error) {
   for (const DartId dart : orbit) {
-    if (!matches(pattern, dart, error)) {
-      if (error) return false;
-      continue;
-    }
-    bool first = true;
-    if (pattern.first) {
-      frame_.set(pattern.first_dart, dart);
-      if (!matcher_.evaluator().evaluate_bool(*pattern.first, frame_, first)) {
-        error = matcher_.evaluator().take_failure().diagnostic;
-        return false;
-      }
-    }
-    if (!first) continue;
+    frame_.reset(pattern.frame_size);
+    const Start found = start_at(matcher_, pattern.match, pattern.first.get(), pattern.first_dart,
+                                 dart, frame_, match_, error);
+    if (error) return false;
+    if (found != Start::Yes) continue;
     start = dart;
     return true;
   }
@@ -77,9 +71,7 @@ bool NewInteractions::start_match(const compile::RootedPattern& pattern,
 bool NewInteractions::matches(const compile::RootedPattern& pattern, DartId dart,
                               Diagnostic& error) {
   frame_.reset(pattern.frame_size);
-  if (matcher_.match(pattern.match, {&dart, 1}, frame_, match_)) return true;
-  if (matcher_.failure().reason == MatchFailure::Reason::Error) error = matcher_.failure().error;
-  return false;
+  return start_at(matcher_, pattern.match, nullptr, {}, dart, frame_, match_, error) == Start::Yes;
 }
 
 NewInteractions::Diagnostic NewInteractions::give(Rewriter& rewriter,
@@ -134,14 +126,13 @@ NewInteractions::Diagnostic NewInteractions::evaluate(const compile::Interaction
 /// Walks from what rules made to what was there before.
 std::optional<std::uint32_t> NewInteractions::body_of(DartId dart) const {
   std::vector<DartId> reached{dart};
-  std::vector<bool> seen(state_.map.dart_end(), false);
+  std::unordered_set<std::uint32_t> seen;
   for (std::size_t k = 0; k < reached.size(); ++k) {
     const std::size_t number = types::index(reached[k]);
     if (number < model_.body_of_dart.size()) return model_.body_of_dart[number];
     for (int i = 0; i <= state_.map.dimension(); ++i) {
       const DartId next = state_.map.alpha(i, reached[k]);
-      if (!seen[types::index(next)]) reached.push_back(next);
-      seen[types::index(next)] = true;
+      if (seen.insert(types::index(next)).second) reached.push_back(next);
     }
   }
   return std::nullopt;

@@ -55,7 +55,7 @@ double TreeWalker::scalar_arithmetic(const Expr& expr) {
 
 bool TreeWalker::equal(const Expr& expr) {
   const std::uint32_t count =
-      std::max(number_count(expr.args[0]->type), number_count(expr.args[1]->type));
+      std::max(types::number_count(expr.args[0]->type), types::number_count(expr.args[1]->type));
   const Arena::Mark mark = frame_->arena_.mark();
   double* a = frame_->arena_.allocate(count);
   double* b = frame_->arena_.allocate(count);
@@ -76,7 +76,7 @@ void TreeWalker::arithmetic(const Expr& expr, double* out) {
   switch (expr.kind) {
     case ExprKind::Neg: {
       numbers(*expr.args[0], out);
-      std::transform(out, out + number_count(expr.type), out, std::negate<>());
+      std::transform(out, out + types::number_count(expr.type), out, std::negate<>());
       return;
     }
     case ExprKind::Add:
@@ -85,7 +85,7 @@ void TreeWalker::arithmetic(const Expr& expr, double* out) {
     case ExprKind::Div: {
       numbers(*expr.args[0], out);
       const double divisor = scalar(*expr.args[1]);
-      const std::uint32_t count = number_count(expr.type);
+      const std::uint32_t count = types::number_count(expr.type);
       for (std::uint32_t i = 0; i < count; ++i) out[i] /= divisor;
       return;
     }
@@ -95,7 +95,7 @@ void TreeWalker::arithmetic(const Expr& expr, double* out) {
 }
 
 void TreeWalker::sum_or_difference(const Expr& expr, double* out) {
-  const std::uint32_t count = number_count(expr.type);
+  const std::uint32_t count = types::number_count(expr.type);
   const Arena::Mark mark = frame_->arena_.mark();
   double* b = frame_->arena_.allocate(count);
   operand(*expr.args[0], count, out);
@@ -107,9 +107,9 @@ void TreeWalker::sum_or_difference(const Expr& expr, double* out) {
 
 void TreeWalker::product(const Expr& expr, double* out) {
   const Expr &left = *expr.args[0], &right = *expr.args[1];
-  const std::uint32_t count = number_count(expr.type);
-  if (is_scalar(left.type) || is_scalar(right.type)) {
-    const bool first = is_scalar(left.type);
+  const std::uint32_t count = types::number_count(expr.type);
+  if (types::is_scalar(left.type) || types::is_scalar(right.type)) {
+    const bool first = types::is_scalar(left.type);
     double factor = 0.0;
     if (first) factor = scalar(left);
     numbers(first ? right : left, out);
@@ -123,7 +123,7 @@ void TreeWalker::product(const Expr& expr, double* out) {
 }
 
 void TreeWalker::convert(const Expr& expr, double* out) {
-  operand(*expr.args[0], number_count(expr.type), out);
+  operand(*expr.args[0], types::number_count(expr.type), out);
 }
 
 void TreeWalker::call(const Expr& expr, double* out) {
@@ -141,7 +141,7 @@ void TreeWalker::call(const Expr& expr, double* out) {
   }
   double result[kMaxComponents];  // arguments may live where the result goes
   builtin_function(expr.builtin)(arguments, result);
-  std::copy_n(result, number_count(expr.type), out);
+  std::copy_n(result, types::number_count(expr.type), out);
 }
 
 }  // namespace gmsim::engine

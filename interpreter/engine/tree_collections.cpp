@@ -132,13 +132,13 @@ void TreeWalker::fold(const Expr& expr, double* out) {
       return;
     case FoldKind::ArgMax:
     case FoldKind::ArgMin:
-      std::fill_n(out, number_count(expr.type), 0.0);
+      std::fill_n(out, types::number_count(expr.type), 0.0);
       return fold_best(expr, [&] { numbers(*expr.args[2], out); });
   }
 }
 
 void TreeWalker::fold_sum(const Expr& expr, double* out) {
-  const std::uint32_t count = number_count(expr.type);
+  const std::uint32_t count = types::number_count(expr.type);
   const Arena::Mark mark = frame_->arena_.mark();
   double* term = frame_->arena_.allocate(count);
   std::fill_n(out, count, 0.0);

@@ -15,7 +15,7 @@ EvalFailure TreeEvaluator::take_failure() { return walker_->take_failure(); }
 
 bool TreeEvaluator::evaluate(const types::Expr& expr, Frame& frame, std::span<double> out) {
   const TreeWalker::Entry entry(*walker_, frame);
-  GMSIM_CHECK(out.size() == number_count(expr.type), "room for another number of components");
+  GMSIM_CHECK(out.size() == types::number_count(expr.type), "room for another number of components");
   walker_->numbers(expr, out.data());
   return !failed();
 }
@@ -51,7 +51,7 @@ std::optional<types::Value> TreeEvaluator::evaluate(const types::Expr& expr, Fra
       walker_->darts(expr, value.darts);
       break;
     default:
-      value.data.resize(number_count(expr.type));
+      value.data.resize(types::number_count(expr.type));
       walker_->numbers(expr, value.data.data());
   }
   if (failed()) return std::nullopt;

@@ -14,21 +14,6 @@ using types::Expr;
 using types::ExprKind;
 using types::ValueKind;
 
-std::uint32_t number_count(const types::ValueType& type) {
-  switch (type.kind) {
-    case ValueKind::EigenPair:
-      return 4;
-    case ValueKind::Range:
-      return 2;
-    case ValueKind::Zero:
-      return 1;
-    case ValueKind::Forces:
-      return 0;
-    default:
-      return types::component_count(type);
-  }
-}
-
 double random_number(std::int64_t seed, const State& state, OrbitType type, DartId dart) {
   // SplitMix64 (Steele, Lea, Flood 2014), one round for each part of the key.
   std::uint64_t hash = 0;
@@ -144,7 +129,7 @@ void TreeWalker::read(EmbeddingId id, DartId dart, double* out, const Expr* read
     return;
   }
   fail_missing(id, dart, reader);
-  std::fill_n(out, number_count(decl.type), 0.0);
+  std::fill_n(out, types::number_count(decl.type), 0.0);
 }
 
 bool TreeWalker::has(const Expr& expr) {
@@ -189,7 +174,7 @@ std::uint32_t TreeWalker::element_offset(const Expr& index) {
          fmt::format("index {} is outside of 0..{}", types::number_text(position), extent));
     return 0;
   }
-  return static_cast<std::uint32_t>(position) * number_count(index.type);
+  return static_cast<std::uint32_t>(position) * types::number_count(index.type);
 }
 
 void TreeWalker::assign(const Expr& expr, Slot slot) {
@@ -203,7 +188,7 @@ void TreeWalker::assign(const Expr& expr, Slot slot) {
     }
     default: {
       const Arena::Mark mark = frame_->arena_.mark();
-      const std::uint32_t count = number_count(expr.type);
+      const std::uint32_t count = types::number_count(expr.type);
       double* value = frame_->arena_.allocate(count);
       numbers(expr, value);
       Frame::Cell& cell = frame_->use(slot);
@@ -291,7 +276,7 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
     case ExprKind::Embedding: {
       DartId at;
       if (live_dart(*expr.args[0], at)) return read(expr.embedding, at, out, &expr);
-      std::fill_n(out, number_count(expr.type), 0.0);
+      std::fill_n(out, types::number_count(expr.type), 0.0);
       return;
     }
     case ExprKind::If:
@@ -311,7 +296,7 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
     case ExprKind::Component: {
       double scratch[4];
       const double* pair = view(*expr.args[0], scratch);  // a vector's components are scalars
-      if (is_scalar(expr.type)) {
+      if (types::is_scalar(expr.type)) {
         *out = pair[expr.number];
       } else {
         std::copy_n(pair + 1, 3, out);
@@ -320,14 +305,14 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
     }
     case ExprKind::Index: {
       const Arena::Mark mark = frame_->arena_.mark();
-      double* scratch = frame_->arena_.allocate(number_count(expr.args[0]->type));
+      double* scratch = frame_->arena_.allocate(types::number_count(expr.args[0]->type));
       const double* element = view(*expr.args[0], scratch) + element_offset(expr);
-      std::copy_n(element, number_count(expr.type), out);
+      std::copy_n(element, types::number_count(expr.type), out);
       frame_->arena_.release(mark);
       return;
     }
     case ExprKind::Literal:
-      if (!is_scalar(expr.type)) {
+      if (!types::is_scalar(expr.type)) {
         std::copy(expr.value.data.begin(), expr.value.data.end(), out);
         return;
       }
@@ -339,7 +324,7 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
     case ExprKind::Mul:
     case ExprKind::Div:
     case ExprKind::Pow:
-      if (!is_scalar(expr.type)) return arithmetic(expr, out);
+      if (!types::is_scalar(expr.type)) return arithmetic(expr, out);
       *out = scalar(expr);
       return;
     case ExprKind::Free:
@@ -365,7 +350,7 @@ void TreeWalker::numbers(const Expr& expr, double* out) {
     case ExprKind::Forces:
     case ExprKind::Grad:
       unavailable(expr);
-      std::fill_n(out, number_count(expr.type), 0.0);
+      std::fill_n(out, types::number_count(expr.type), 0.0);
       return;
     case ExprKind::Alpha:
     case ExprKind::OrbitDarts:

@@ -18,14 +18,6 @@
 
 namespace gmsim::engine {
 
-/// Doubles of a value of any type that has components; an eigenpair has four, the literal 0 one.
-[[nodiscard]] std::uint32_t number_count(const types::ValueType& type);
-/// One double: bool, int, real or the literal 0.
-[[nodiscard]] inline bool is_scalar(const types::ValueType& type) {
-  return (type.kind <= types::ValueKind::Real || type.kind == types::ValueKind::Zero) &&
-         type.extents.empty();
-}
-
 /// The work of TreeEvaluator. Numbers are written to memory of the caller, so that nothing is
 /// allocated but for collections, which come from a pool. After a failure every function returns
 /// something harmless, loops stop, and the first failure is kept.
@@ -143,7 +135,7 @@ void TreeWalker::with_bound(const Expr& let, const Body& body) {
       break;
     default:
       value.kind = Frame::Kind::Numbers;
-      value.count = number_count(bound.type);
+      value.count = types::number_count(bound.type);
       value.numbers = frame_->arena_.allocate(value.count);
       numbers(bound, value.numbers);
   }

@@ -76,6 +76,21 @@ std::uint32_t component_count(const ValueType& type) {
   return count;
 }
 
+std::uint32_t number_count(const ValueType& type) {
+  switch (type.kind) {
+    case ValueKind::EigenPair:
+      return 4;
+    case ValueKind::Range:
+      return 2;
+    case ValueKind::Zero:
+      return 1;
+    case ValueKind::Forces:
+      return 0;
+    default:
+      return component_count(type);
+  }
+}
+
 bool is_storable(const ValueType& type) {
   return find_storable(type.kind) != nullptr;
 }

@@ -36,6 +36,13 @@ struct ValueType {
 /// Number of doubles that hold a value of a storable type (Bool … Sym3 and arrays of them).
 /// Matrices are row-major; Sym3 is stored xx, yy, zz, yz, xz, xy.
 [[nodiscard]] std::uint32_t component_count(const ValueType& type);
+/// Doubles of a value of any type while expressions are evaluated: also of an eigenpair (4), a range
+/// (2), the literal 0 (1) and a collection of forces (0).
+[[nodiscard]] std::uint32_t number_count(const ValueType& type);
+/// One double: bool, int, real or the literal 0.
+[[nodiscard]] inline bool is_scalar(const ValueType& type) {
+  return (type.kind <= ValueKind::Real || type.kind == ValueKind::Zero) && !type.is_array();
+}
 /// Bool, Int, Real, Vec*, Mat*, Sym3, and arrays of them: what an embedding or parameter can be.
 [[nodiscard]] bool is_storable(const ValueType& type);
 [[nodiscard]] std::string to_string(const ValueType& type);
